@@ -1,0 +1,16 @@
+// glTF 2.0 / GLB files into characters. The one place that knows tinygltf.
+#pragma once
+
+#include <filesystem>
+
+#include "motion/character.h"
+
+namespace pointsample {
+
+// Every triangle of the file's default scene: several parts, skins, rigid parts on nodes, morph targets, base colour
+// factors and textures, all clips. Strips and fans become triangles; missing normals are computed (area-weighted);
+// skinned vertices ignore their node's transform, as glTF 2.0 says. Units and axes stay the file's (y up).
+// Throws std::runtime_error with one line naming the file, what was found and what was expected.
+motion::Character load_gltf(const std::filesystem::path& path);
+
+}  // namespace pointsample

@@ -1,0 +1,18 @@
+// The built-in person: a skinned humanoid made by code, the same everywhere.
+#pragma once
+
+#include "motion/character.h"
+
+namespace scene {
+
+// A closed humanoid of 1,000-1,300 triangles and about 20 joints, 1.75 m tall standing, feet at y = 0, facing +z,
+// with the clips "sit", "clap", "cheer", "wave" (spectators: 4 s each, all starting and ending in the same seated
+// pose, so that they can follow one another; the seat's surface is at y = seat_height, the hips over the origin), and
+// "stand" (4 s), "walk", "run" (in place; one cycle = two steps; speeds below). Tints: skin, hair, shirt, trousers.
+motion::Character make_person();
+
+inline constexpr float seat_height = 0.45f;   // [m]
+inline constexpr float walk_speed = 1.4f;     // [m/s] at 1.75 m: feet don't slide
+inline constexpr float run_speed = 4.5f;      // [m/s]
+
+}  // namespace scene

@@ -1,0 +1,42 @@
+// A frame-time controller: past samples in, the next decision out. No clock, no I/O, no allocation after construction;
+// the same calls give the same decisions to the bit.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "sfsm/decision.h"
+
+namespace sfsm {
+
+// All that a controller believes; read by the overlay, the trace, the report and the tests.
+struct Status {
+    Decision decision;
+    double target_ms = 0;
+    double last_ms = 0;              // the newest usable sample
+    std::int64_t bad_samples = 0;    // NaN, infinite, zero or negative times: counted and ignored
+    const char* reason = "start";    // why the decision is what it is: static string
+};
+
+class Controller {
+public:
+    virtual ~Controller() = default;
+
+    // A time has arrived; in frame order, possibly frames late.
+    virtual void observe(const FrameSample& sample) = 0;
+
+    // The decision for the next frame, at `target_ms` > 0 and with people visible up to L = `range` > 0 [m] view depth.
+    // Unusable arguments leave the last usable ones in force.
+    virtual Decision decide(double target_ms, double range) = 0;
+
+    virtual const Status& status() const = 0;
+};
+
+// The laws there are, in the order they are listed to a user.
+std::span<const std::string_view> law_names();
+
+// Throws std::invalid_argument naming the laws there are.
+std::unique_ptr<Controller> make_controller(std::string_view law);
+
+}  // namespace sfsm

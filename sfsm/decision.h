@@ -1,0 +1,44 @@
+// The words that the controller and the renderer speak with each other: plain data.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+namespace sfsm {
+
+// Lyu et al. 2018, section 3.3. Lower to higher: less picture, less time.
+enum class State : int {
+    original = 0,  // original triangles, everybody moves every frame
+    slowed = 1,    // triangles; beyond D people move at the reduced frequency of eq. 1
+    points = 2,    // that, and people are drawn as points of size S
+};
+
+// How the next frame is drawn.
+struct Decision {
+    State state = State::original;
+    double motion_distance = std::numeric_limits<double>::infinity();  // D [m], view depth; > 0. Means nothing in state 0
+    double splat_size = 0;                                             // S [px] in [0, max_splat_size]; 0 outside state 2
+
+    bool operator==(const Decision&) const = default;
+};
+inline constexpr double max_splat_size = 32;  // [px]
+
+// Counts of each kind of work that has a price. What a frame cost is prices times counts.
+struct Work {
+    std::int64_t people = 0;          // drawn
+    std::int64_t triangles = 0;       // of people
+    std::int64_t points = 0;
+    std::int64_t motion_updates = 0;  // people whose pose changed
+
+    bool operator==(const Work&) const = default;
+};
+
+// A measured time with the decision and the work it belongs to, however late it arrives.
+struct FrameSample {
+    std::int64_t frame = 0;
+    double ms = 0;
+    Decision decision;
+    Work work;
+};
+
+}  // namespace sfsm

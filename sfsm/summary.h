@@ -1,0 +1,25 @@
+// What a run came to, in the figures the paper and the scorecard use.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "sfsm/trace.h"
+
+namespace sfsm {
+
+struct Summary {
+    std::int64_t frames = 0;         // with a measured time
+    double target_ms = 0;            // of the last frame
+    double mean_ms = 0, p50_ms = 0, p99_ms = 0;
+    double control_rate = 0;         // mean of max(0, 1 - |T - t| / t), in [0, 1]
+    double within_5pct = 0, within_10pct = 0;  // shares of frames with |T - t| <= 5 % / 10 % of t
+    double over_5pct = 0;            // share of frames with T > 1.05 t
+    std::array<std::int64_t, 3> state_frames{};
+};
+
+// Of no measured frames: zeros. Percentiles are of the sorted times, nearest rank.
+Summary summarize(std::span<const TraceRow> rows);
+
+}  // namespace sfsm

@@ -1,0 +1,37 @@
+// Our own traces: CSV, one row a frame, a header line first, before it lines starting with '#' that carry the run's
+// settings as "# key=value". Numbers are written so that they read back to the same bits.
+#pragma once
+
+#include <iosfwd>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "sfsm/decision.h"
+
+namespace sfsm {
+
+struct TraceRow {
+    std::int64_t frame = 0;
+    double target_ms = 0;
+    double frame_ms = 0;      // what the controller holds at the target; NaN = not measured
+    double cpu_ms = 0;        // to record the frame
+    double gpu_ms = 0;        // NaN where the driver cannot say
+    Decision decision;        // the one this frame was drawn with
+    double range = 0;         // L [m] given to the controller before this frame
+    Work work;
+};
+
+struct Trace {
+    std::map<std::string, std::string> settings;
+    std::vector<TraceRow> rows;
+};
+
+// The header has at least frame,target_ms,frame_ms,cpu_ms,gpu_ms,state,motion_distance_m,splat_px,visible,triangles,points,motion_updates.
+void write_trace_header(std::ostream& out, const std::map<std::string, std::string>& settings);
+void write_trace_row(std::ostream& out, const TraceRow& row);
+
+// Columns are found by name, unknown ones are skipped. Throws std::runtime_error naming `name`, the line and what was expected there.
+Trace read_trace(std::istream& in, const std::string& name);
+
+}  // namespace sfsm
