@@ -32,7 +32,7 @@ struct Bounds {
     glm::vec3 center() const { return 0.5f * (min + max); }
 };
 
-// The tight box of `positions`; of an empty span, the origin.
+// The tight box of the finite ones among `positions`; without any, the origin.
 Bounds bounds_of(std::span<const glm::vec3> positions);
 
 }  // namespace motion

@@ -12,7 +12,7 @@
 
 namespace motion {
 
-// Position: 16 bits an axis over the table's box, unorm. Normal: octahedral, two signed bytes.
+// Position: 16 bits an axis over the table's box, unorm. Normal: octahedral about z, two signed bytes (127 = 1).
 struct PosedVertex {
     std::uint16_t x, y, z;
     std::int8_t normal_u, normal_v;
@@ -39,7 +39,7 @@ struct PoseTable {
     std::vector<PosedVertex> points;    // [pose * point_count + point]
     Bounds box;                         // holds every posed vertex of every pose: [model units]
     std::vector<Bounds> clip_boxes;     // the same for each clip
-    float rest_height = 0;              // y extent of the first clip's first pose: what a person's height is scaled by [model units] > 0
+    float rest_height = 0;              // y extent of the first clip's first pose: what a person's height is scaled by (of a flat pose: the box's longest side) [model units] > 0
     float area = 0;                     // largest surface area over the poses [model units^2]
 
     // Of clip `clip` (into clips) at integer time `tick` of its own; wraps.
@@ -47,7 +47,9 @@ struct PoseTable {
 };
 
 // Bakes `clips` (indices into character.clips; empty = the rest pose alone) at 60 Hz, or at the first of 30, 20, 15 Hz
-// ... that keeps vertices and points within `byte_budget`. `points` may be empty. `progress` gets fractions in [0, 1].
+// ... that keeps vertices and points within `byte_budget`. A clip is a loop: its period is its duration rounded to whole
+// poses (at least one), and the pose at the duration is the first again. The same bits on every thread count. `points`
+// may be empty. `progress` gets fractions in [0, 1].
 // Throws std::runtime_error if even one pose a clip is more than the budget, or if the mesh is empty or flat in every pose.
 PoseTable bake_poses(const Character& character, std::span<const int> clips, std::span<const SurfacePoint> points,
                      std::size_t byte_budget, const std::function<void(double)>& progress = {});
