@@ -14,9 +14,9 @@ namespace sfsm {
 struct Status {
     Decision decision;
     double target_ms = 0;
-    double last_ms = 0;              // the newest usable sample
-    std::int64_t bad_samples = 0;    // NaN, infinite, zero or negative times: counted and ignored
-    const char* reason = "start";    // why the decision is what it is: static string
+    double last_ms = 0;            // the newest usable sample
+    std::int64_t bad_samples = 0;  // NaN, infinite, zero or negative times: counted and ignored
+    const char* reason = "start";  // why the decision is what it is: static string
 };
 
 class Controller {

@@ -16,8 +16,9 @@ enum class State : int {
 // How the next frame is drawn.
 struct Decision {
     State state = State::original;
-    double motion_distance = std::numeric_limits<double>::infinity();  // D [m], view depth; > 0. Means nothing in state 0
-    double splat_size = 0;                                             // S [px] in [0, max_splat_size]; 0 outside state 2
+    // D [m], view depth; > 0. Means nothing in state 0.
+    double motion_distance = std::numeric_limits<double>::infinity();
+    double splat_size = 0;  // S [px] in [0, max_splat_size]; 0 outside state 2
 
     bool operator==(const Decision&) const = default;
 };
@@ -25,8 +26,8 @@ inline constexpr double max_splat_size = 32;  // [px]
 
 // Counts of each kind of work that has a price. What a frame cost is prices times counts.
 struct Work {
-    std::int64_t people = 0;          // drawn
-    std::int64_t triangles = 0;       // of people
+    std::int64_t people = 0;     // drawn
+    std::int64_t triangles = 0;  // of people
     std::int64_t points = 0;
     std::int64_t motion_updates = 0;  // people whose pose changed
 

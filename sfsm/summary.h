@@ -3,23 +3,30 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <span>
+#include <string>
 
 #include "sfsm/trace.h"
 
 namespace sfsm {
 
 struct Summary {
-    std::int64_t frames = 0;         // with a measured time
-    double target_ms = 0;            // of the last frame
+    std::int64_t frames = 0;  // with a measured time
+    double target_ms = 0;     // of the last frame
     double mean_ms = 0, p50_ms = 0, p99_ms = 0;
-    double control_rate = 0;         // mean of max(0, 1 - |T - t| / t), in [0, 1]
-    double within_5pct = 0, within_10pct = 0;  // shares of frames with |T - t| <= 5 % / 10 % of t
-    double over_5pct = 0;            // share of frames with T > 1.05 t
-    std::array<std::int64_t, 3> state_frames{};
+    double control_rate = 0;                     // mean of max(0, 1 - |T - t| / t), in [0, 1]
+    double within_5pct = 0, within_10pct = 0;    // shares of frames with |T - t| <= 5 % / 10 % of t
+    double over_5pct = 0;                        // share of frames with T > 1.05 t
+    std::array<std::int64_t, 3> state_frames{};  // of the frames counted in `frames`
 };
 
-// Of no measured frames: zeros. Percentiles are of the sorted times, nearest rank.
+// Measured is a frame with a finite time and a finite target over 0. Of no measured frames: zeros.
+// Percentiles are of the sorted times, nearest rank.
 Summary summarize(std::span<const TraceRow> rows);
+
+// One JSON object on several lines, ending in a line feed: the fields above under their names, and people, law, seed
+// and device as the trace settings of those names have them (null where they are missing; seed and people are numbers).
+std::string summary_json(const Summary& summary, const std::map<std::string, std::string>& settings);
 
 }  // namespace sfsm

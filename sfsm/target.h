@@ -18,7 +18,10 @@ public:
     std::string text() const;             // parses back to the same schedule
 
 private:
-    struct Step { std::int64_t frame; double ms; };
+    struct Step {
+        std::int64_t frame;
+        double ms;
+    };
     std::vector<Step> steps_;
 };
 

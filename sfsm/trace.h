@@ -14,11 +14,11 @@ namespace sfsm {
 struct TraceRow {
     std::int64_t frame = 0;
     double target_ms = 0;
-    double frame_ms = 0;      // what the controller holds at the target; NaN = not measured
-    double cpu_ms = 0;        // to record the frame
-    double gpu_ms = 0;        // NaN where the driver cannot say
-    Decision decision;        // the one this frame was drawn with
-    double range = 0;         // L [m] given to the controller before this frame
+    double frame_ms = 0;  // what the controller holds at the target; NaN = not measured
+    double cpu_ms = 0;    // to record the frame
+    double gpu_ms = 0;    // NaN where the driver cannot say
+    Decision decision;    // the one this frame was drawn with
+    double range = 0;     // L [m] given to the controller before this frame
     Work work;
 };
 
@@ -27,11 +27,13 @@ struct Trace {
     std::vector<TraceRow> rows;
 };
 
-// The header has at least frame,target_ms,frame_ms,cpu_ms,gpu_ms,state,motion_distance_m,splat_px,visible,triangles,points,motion_updates.
+// The header has at least
+// frame,target_ms,frame_ms,cpu_ms,gpu_ms,state,motion_distance_m,splat_px,visible,triangles,points,motion_updates.
 void write_trace_header(std::ostream& out, const std::map<std::string, std::string>& settings);
 void write_trace_row(std::ostream& out, const TraceRow& row);
 
-// Columns are found by name, unknown ones are skipped. Throws std::runtime_error naming `name`, the line and what was expected there.
+// Columns are found by name, unknown ones are skipped. Throws std::runtime_error naming `name`, the line and what was
+// expected there.
 Trace read_trace(std::istream& in, const std::string& name);
 
 }  // namespace sfsm

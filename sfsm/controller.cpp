@@ -1,0 +1,42 @@
+#include "sfsm/controller.h"
+
+#include <array>
+#include <stdexcept>
+#include <string>
+
+#include "sfsm/paper.h"
+
+namespace sfsm {
+namespace {
+
+struct Law {
+    std::string_view name;
+    std::unique_ptr<Controller> (*make)();
+};
+
+constexpr std::array laws = {
+    Law{"paper", [] { return std::unique_ptr<Controller>(std::make_unique<PaperLaw>()); }},
+};
+
+constexpr auto names = [] {
+    std::array<std::string_view, laws.size()> list{};
+    for (std::size_t i = 0; i < laws.size(); ++i) list[i] = laws[i].name;
+    return list;
+}();
+
+}  // namespace
+
+std::span<const std::string_view> law_names() {
+    return names;
+}
+
+std::unique_ptr<Controller> make_controller(std::string_view law) {
+    for (const Law& known : laws) {
+        if (known.name == law) return known.make();
+    }
+    std::string message = "found law '" + std::string(law) + "', expected one of:";
+    for (const std::string_view name : names) message.append(" ").append(name);
+    throw std::invalid_argument(message);
+}
+
+}  // namespace sfsm

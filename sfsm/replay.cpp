@@ -1,0 +1,58 @@
+#include "sfsm/replay.h"
+
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <stdexcept>
+
+#include "sfsm/number_text.h"
+
+namespace sfsm {
+
+std::vector<Decision> replay_decisions(Controller& law, std::span<const TraceRow> rows, int delay) {
+    assert(delay >= 0 && delay <= max_delay);
+    std::vector<Decision> decisions;
+    decisions.reserve(rows.size());
+    std::size_t arrived = 0;
+    for (const TraceRow& row : rows) {
+        for (; arrived < decisions.size() && rows[arrived].frame < row.frame - delay; ++arrived) {
+            const TraceRow& past = rows[arrived];
+            if (!std::isnan(past.frame_ms)) law.observe({past.frame, past.frame_ms, decisions[arrived], past.work});
+        }
+        decisions.push_back(law.decide(row.target_ms, row.range));
+    }
+    return decisions;
+}
+
+int trace_delay(const Trace& trace) {
+    const auto found = trace.settings.find("delay");
+    if (found == trace.settings.end()) return 0;
+    const std::optional<std::int64_t> delay = parse_integer(found->second);
+    if (!delay || *delay < 0 || *delay > max_delay) {
+        throw std::runtime_error("found setting delay=" + found->second + ", expected a whole number in [0, " +
+                                 std::to_string(max_delay) + "]");
+    }
+    return static_cast<int>(*delay);
+}
+
+std::optional<Difference> first_difference(std::span<const TraceRow> rows, std::span<const Decision> decisions) {
+    assert(rows.size() == decisions.size());
+    const auto same_bits = [](double a, double b) {
+        return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+    };
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const Decision& recorded = rows[i].decision;
+        const Decision& decided = decisions[i];
+        const Difference fields[] = {
+            {rows[i].frame, "state", static_cast<double>(recorded.state), static_cast<double>(decided.state)},
+            {rows[i].frame, "motion_distance_m", recorded.motion_distance, decided.motion_distance},
+            {rows[i].frame, "splat_px", recorded.splat_size, decided.splat_size},
+        };
+        for (const Difference& field : fields) {
+            if (!same_bits(field.recorded, field.decided)) return field;
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace sfsm

@@ -1,0 +1,129 @@
+#include "sfsm/summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+#include "sfsm/number_text.h"
+
+namespace sfsm {
+namespace {
+
+bool is_measured(const TraceRow& row) {
+    return std::isfinite(row.frame_ms) && std::isfinite(row.target_ms) && row.target_ms > 0;
+}
+
+// The smallest time that at least `percent` of the times do not exceed.
+double nearest_rank(std::span<const double> sorted, std::size_t percent) {
+    const std::size_t rank = (sorted.size() * percent + 99) / 100;
+    return sorted[std::max<std::size_t>(rank, 1) - 1];
+}
+
+// Sums over frames; finish() makes shares of them.
+void add_frame(Summary& sum, double ms, double target) {
+    const double miss = std::abs(ms - target);
+    sum.mean_ms += ms;
+    sum.control_rate += std::max(0.0, 1 - miss / target);
+    sum.within_5pct += miss <= 0.05 * target ? 1 : 0;
+    sum.within_10pct += miss <= 0.10 * target ? 1 : 0;
+    sum.over_5pct += ms - target > 0.05 * target ? 1 : 0;
+}
+
+void append_string(std::string& out, std::string_view text) {
+    constexpr std::string_view hex = "0123456789abcdef";
+    out += '"';
+    for (const char c : text) {
+        const auto code = static_cast<unsigned char>(c);
+        if (code < 0x20) {
+            out.append("\\u00").append({hex[code >> 4], hex[code & 15]});
+        } else {
+            if (c == '"' || c == '\\') out += '\\';
+            out += c;
+        }
+    }
+    out += '"';
+}
+
+using Settings = std::map<std::string, std::string>;
+
+// JSON has no infinity, which the mean of huge times may reach.
+void append_figure(std::string& out, const char* name, double value) {
+    append_string(out += "  ", name);
+    out += ": " + (std::isfinite(value) ? number_text(value) : "null") + ",\n";
+}
+
+// Numbers stay as they are written: a seed may be larger than any number type of ours.
+bool is_whole_number(std::string_view text) {
+    const bool digits =
+        !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+    return digits && (text.size() == 1 || text[0] != '0');
+}
+
+void append_setting(std::string& out, const Settings& settings, const char* key, bool is_number) {
+    const auto found = settings.find(key);
+    append_string(out += "  ", key);
+    out += ": ";
+    if (found == settings.end()) {
+        out += "null";
+    } else if (is_number && is_whole_number(found->second)) {
+        out += found->second;
+    } else {
+        append_string(out, found->second);
+    }
+    out += ",\n";
+}
+
+}  // namespace
+
+Summary summarize(std::span<const TraceRow> rows) {
+    Summary summary;
+    std::vector<double> times;
+    for (const TraceRow& row : rows) {
+        if (!is_measured(row)) continue;
+        times.push_back(row.frame_ms);
+        add_frame(summary, row.frame_ms, row.target_ms);
+        summary.target_ms = row.target_ms;
+        ++summary.state_frames[static_cast<std::size_t>(row.decision.state)];
+    }
+    if (times.empty()) return summary;
+
+    const auto frames = static_cast<double>(times.size());
+    for (double* mean :
+         {&summary.mean_ms, &summary.control_rate, &summary.within_5pct, &summary.within_10pct, &summary.over_5pct}) {
+        *mean /= frames;
+    }
+    std::sort(times.begin(), times.end());
+    summary.frames = static_cast<std::int64_t>(times.size());
+    summary.p50_ms = nearest_rank(times, 50);
+    summary.p99_ms = nearest_rank(times, 99);
+    return summary;
+}
+
+std::string summary_json(const Summary& summary, const Settings& settings) {
+    std::string out = "{\n";
+    append_setting(out, settings, "people", true);
+    append_number(out += "  \"frames\": ", summary.frames);
+    out += ",\n";
+    append_setting(out, settings, "law", false);
+    append_setting(out, settings, "seed", true);
+    append_setting(out, settings, "device", false);
+    const std::pair<const char*, double> figures[] = {
+        {"target_ms", summary.target_ms},
+        {"mean_ms", summary.mean_ms},
+        {"p50_ms", summary.p50_ms},
+        {"p99_ms", summary.p99_ms},
+        {"control_rate", summary.control_rate},
+        {"within_5pct", summary.within_5pct},
+        {"within_10pct", summary.within_10pct},
+        {"over_5pct", summary.over_5pct},
+    };
+    for (const auto& [name, value] : figures) append_figure(out, name, value);
+    out += "  \"state_frames\": [";
+    append_number(out, summary.state_frames[0]);
+    append_number(out += ", ", summary.state_frames[1]);
+    append_number(out += ", ", summary.state_frames[2]);
+    return out += "]\n}\n";
+}
+
+}  // namespace sfsm

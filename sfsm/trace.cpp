@@ -1,0 +1,199 @@
+#include "sfsm/trace.h"
+
+#include <array>
+#include <cmath>
+#include <istream>
+#include <ostream>
+#include <stdexcept>
+#include <string_view>
+
+#include "sfsm/number_text.h"
+
+namespace sfsm {
+namespace {
+
+enum Column {
+    frame,
+    target_ms,
+    frame_ms,
+    cpu_ms,
+    gpu_ms,
+    state,
+    distance,
+    splat,
+    people,
+    triangles,
+    points,
+    updates,
+    range
+};
+constexpr std::array<std::string_view, 13> column_names = {
+    "frame",    "target_ms", "frame_ms",  "cpu_ms", "gpu_ms",         "state",   "motion_distance_m",
+    "splat_px", "visible",   "triangles", "points", "motion_updates", "range_m",
+};
+constexpr std::string_view header_line =
+    "frame,target_ms,frame_ms,cpu_ms,gpu_ms,state,motion_distance_m,splat_px,visible,triangles,points,motion_updates,"
+    "range_m";
+
+// Where in a file we are: all that an error needs to say.
+struct Place {
+    const std::string& name;
+    int line = 0;
+
+    [[noreturn]] void fail(const std::string& found_and_expected) const {
+        throw std::runtime_error(name + ":" + std::to_string(line) + ": " + found_and_expected);
+    }
+};
+
+// A setting is one line: what would break it becomes a blank.
+std::string one_line(std::string_view text) {
+    std::string line(text);
+    for (char& c : line) {
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+    }
+    return line;
+}
+
+bool next_line(std::istream& in, std::string& line, Place& place) {
+    if (!std::getline(in, line)) return false;
+    ++place.line;
+    if (line.ends_with('\r')) line.pop_back();
+    return true;
+}
+
+void read_setting(std::string_view line, std::map<std::string, std::string>& settings) {
+    line.remove_prefix(1);
+    if (line.starts_with(' ')) line.remove_prefix(1);
+    const std::size_t equals = line.find('=');
+    if (equals != std::string_view::npos) settings[std::string(line.substr(0, equals))] = line.substr(equals + 1);
+}
+
+std::vector<std::string_view> split(std::string_view line) {
+    std::vector<std::string_view> fields;
+    for (std::size_t comma; (comma = line.find(',')) != std::string_view::npos; line.remove_prefix(comma + 1)) {
+        fields.push_back(line.substr(0, comma));
+    }
+    fields.push_back(line);
+    return fields;
+}
+
+// Where each of our columns stands in this file.
+struct Header {
+    std::array<std::size_t, column_names.size()> position{};
+    std::size_t fields = 0;
+};
+
+Header parse_header(std::string_view line, const Place& place) {
+    const std::vector<std::string_view> found = split(line);
+    Header header;
+    header.fields = found.size();
+    for (std::size_t column = 0; column < column_names.size(); ++column) {
+        std::size_t times = 0;
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            if (found[i] != column_names[column]) continue;
+            header.position[column] = i;
+            ++times;
+        }
+        if (times == 1) continue;
+        place.fail("found " + std::to_string(times) + " columns '" + std::string(column_names[column]) +
+                   "', expected one each of " + std::string(header_line));
+    }
+    return header;
+}
+
+// The fields of one line, by column.
+struct Fields {
+    const Header& header;
+    const std::vector<std::string_view>& fields;
+    const Place& place;
+
+    std::string_view text(Column column) const { return fields[header.position[column]]; }
+
+    [[noreturn]] void fail(Column column, const char* expected) const {
+        place.fail(std::string(column_names[column]) + " is '" + std::string(text(column)) + "', expected " + expected);
+    }
+
+    double number(Column column) const {
+        if (const std::optional<double> value = parse_double(text(column))) return *value;
+        fail(column, "a number");
+    }
+
+    double time(Column column) const {
+        return text(column).empty() ? std::numeric_limits<double>::quiet_NaN() : number(column);
+    }
+
+    std::int64_t count(Column column) const {
+        const std::optional<std::int64_t> value = parse_integer(text(column));
+        if (!value || *value < 0) fail(column, "a whole number from 0");
+        return *value;
+    }
+
+    Decision decision() const {
+        const std::string_view s = text(Column::state);
+        if (s != "0" && s != "1" && s != "2") fail(Column::state, "0, 1 or 2");
+        Decision decision{static_cast<State>(s[0] - '0'), number(distance), number(splat)};
+        if (!(decision.motion_distance > 0)) fail(distance, "metres over 0, or inf");
+        if (!(decision.splat_size >= 0 && decision.splat_size <= max_splat_size)) fail(splat, "pixels in [0, 32]");
+        return decision;
+    }
+};
+static_assert(max_splat_size == 32, "the message above says so");
+
+TraceRow parse_row(const Fields& fields) {
+    TraceRow row;
+    row.frame = fields.count(frame);
+    row.target_ms = fields.number(target_ms);
+    row.frame_ms = fields.time(frame_ms);
+    row.cpu_ms = fields.time(cpu_ms);
+    row.gpu_ms = fields.time(gpu_ms);
+    row.decision = fields.decision();
+    row.work = {fields.count(people), fields.count(triangles), fields.count(points), fields.count(updates)};
+    row.range = fields.number(range);
+    return row;
+}
+
+}  // namespace
+
+void write_trace_header(std::ostream& out, const std::map<std::string, std::string>& settings) {
+    for (const auto& [key, value] : settings) out << "# " << one_line(key) << '=' << one_line(value) << '\n';
+    out << header_line << '\n';
+}
+
+void write_trace_row(std::ostream& out, const TraceRow& row) {
+    std::string line;
+    append_number(line, row.frame);
+    for (const double ms : {row.target_ms, row.frame_ms, row.cpu_ms, row.gpu_ms}) append_number(line += ',', ms);
+    append_number(line += ',', std::int64_t{static_cast<int>(row.decision.state)});
+    append_number(line += ',', row.decision.motion_distance);
+    append_number(line += ',', row.decision.splat_size);
+    for (const std::int64_t count : {row.work.people, row.work.triangles, row.work.points, row.work.motion_updates}) {
+        append_number(line += ',', count);
+    }
+    append_number(line += ',', row.range);
+    out << (line += '\n');
+}
+
+Trace read_trace(std::istream& in, const std::string& name) {
+    Trace trace;
+    Place place{name};
+    std::string line;
+    while (next_line(in, line, place) && line.starts_with('#')) read_setting(line, trace.settings);
+    if (!in) throw std::runtime_error(name + ": found no header line, expected " + std::string(header_line));
+    const Header header = parse_header(line, place);
+
+    while (next_line(in, line, place)) {
+        const std::vector<std::string_view> fields = split(line);
+        if (fields.size() != header.fields) {
+            place.fail("found " + std::to_string(fields.size()) + " fields, expected " + std::to_string(header.fields));
+        }
+        const TraceRow row = parse_row({header, fields, place});
+        if (!trace.rows.empty() && row.frame <= trace.rows.back().frame) {
+            place.fail("found frame " + std::to_string(row.frame) + ", expected one after " +
+                       std::to_string(trace.rows.back().frame));
+        }
+        trace.rows.push_back(row);
+    }
+    return trace;
+}
+
+}  // namespace sfsm
