@@ -1,0 +1,166 @@
+// replay: a recorded run through a law again, to see what it would decide, or to prove that it decided so.
+#include "sfsm/replay.h"
+
+#include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstring>
+#include <exception>
+#include <fstream>
+#include <iostream>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "apps/output.h"
+#include "sfsm/controller.h"
+#include "sfsm/number_text.h"
+#include "sfsm/summary.h"
+#include "sfsm/target.h"
+#include "sfsm/trace.h"
+
+namespace {
+
+constexpr int exit_failure = 1;
+constexpr int exit_usage = 2;
+
+struct Options {
+    std::string trace;
+    std::string law;        // empty: the trace's, or the first there is
+    std::string target_ms;  // empty: the trace's
+    std::string csv;
+    std::string summary;
+    bool verify = false;
+};
+
+constexpr const char* examples = R"(Examples:
+  replay out/stadium.csv                                what the trace's law would decide, summed up
+  replay out/stadium.csv --target-ms 1000,300@30 --csv decisions.csv --summary -
+  replay out/stadium.csv --verify                       is every recorded decision reproduced to the bit?
+
+Replaying is open loop: each recorded time is taken for the time of the law's own decision.
+Exit codes: 0 done (reproduced), 1 failed (not reproduced), 2 usage.)";
+
+void add_options(CLI::App& app, Options& options) {
+    app.set_version_flag("--version", "replay " GRANDSTAND_VERSION);
+    app.footer(examples);
+    app.add_option("TRACE", options.trace, "Trace of a run, as stadium --trace writes it")->required();
+    const std::span<const std::string_view> names = sfsm::law_names();
+    const std::vector<std::string> laws(names.begin(), names.end());
+    auto* law = app.add_option("--law", options.law, "Law to feed; default: the trace's")->check(CLI::IsMember(laws));
+    auto* target = app.add_option("--target-ms", options.target_ms,
+                                  "Target, MS[,MS@FRAME ...] in milliseconds; default: the trace's, frame by frame");
+    auto* csv = app.add_option("--csv", options.csv, "Write the decisions as a trace (- = stdout)");
+    auto* summary = app.add_option("--summary", options.summary, "Write the summary as JSON (- = stdout, the default)");
+    app.add_flag("--verify", options.verify, "Only check that the trace's law reproduces the recorded decisions")
+        ->excludes(law, target, csv, summary);
+}
+
+// CLI11 may spread a message over lines; ours is one.
+std::string one_line(std::string text) {
+    while (!text.empty() && text.back() == '\n') text.pop_back();
+    for (char& c : text) c = c == '\n' ? ' ' : c;
+    return text;
+}
+
+int report(const std::string& message, int code) {
+    std::cerr << "replay: " << one_line(message) << '\n';
+    return code;
+}
+
+sfsm::Trace read(const std::string& path) {
+    errno = 0;
+    std::ifstream file(path, std::ios::binary);
+    if (!file) throw std::runtime_error("cannot read " + path + ": " + std::strerror(errno) + ", expected a trace");
+    return sfsm::read_trace(file, path);
+}
+
+// The setting, which a check of the run cannot do without.
+const std::string& required(const sfsm::Trace& trace, const std::string& path, const char* key) {
+    const auto found = trace.settings.find(key);
+    if (found != trace.settings.end()) return found->second;
+    throw std::runtime_error(path + ": found no setting '" + key + "', expected a line '# " + key + "=...'");
+}
+
+int verify(const std::string& path) {
+    const sfsm::Trace trace = read(path);
+    const std::string& state = required(trace, path, "state");
+    if (state != "auto") {
+        throw std::runtime_error(path + ": found state=" + state +
+                                 ", decisions that were forced, expected state=auto: nothing to verify");
+    }
+    required(trace, path, "delay");
+    const auto law = sfsm::make_controller(required(trace, path, "law"));
+    const std::vector<sfsm::Decision> decisions = sfsm::replay_decisions(*law, trace.rows, sfsm::trace_delay(trace));
+    const auto difference = sfsm::first_difference(trace.rows, decisions);
+    if (difference) {
+        throw std::runtime_error(path + ": frame " + std::to_string(difference->frame) + ": found " +
+                                 difference->field + " " + sfsm::number_text(difference->recorded) + ", expected " +
+                                 sfsm::number_text(difference->decided) + " of law " + trace.settings.at("law"));
+    }
+    std::cout << path << ": all " << decisions.size() << " decisions of law " << trace.settings.at("law")
+              << " reproduced to the bit\n";
+    return 0;
+}
+
+// The trace as the law would have had it: its decisions in place of the recorded ones.
+void redecide(sfsm::Trace& trace, const Options& options) {
+    if (!options.target_ms.empty()) {
+        const sfsm::TargetSchedule targets = sfsm::TargetSchedule::parse(options.target_ms);
+        for (sfsm::TraceRow& row : trace.rows) row.target_ms = targets.at(row.frame);
+        trace.settings["target_ms"] = targets.text();
+    }
+    if (!options.law.empty()) trace.settings["law"] = options.law;
+    trace.settings.try_emplace("law", sfsm::law_names().front());
+    const auto law = sfsm::make_controller(trace.settings["law"]);
+    const std::vector<sfsm::Decision> decisions = sfsm::replay_decisions(*law, trace.rows, sfsm::trace_delay(trace));
+    for (std::size_t i = 0; i < decisions.size(); ++i) trace.rows[i].decision = decisions[i];
+    trace.settings["state"] = "auto";
+    trace.settings["version"] = GRANDSTAND_VERSION;
+}
+
+int replay(const Options& options) {
+    sfsm::Trace trace = read(options.trace);
+    redecide(trace, options);
+    if (!options.csv.empty()) {
+        apps::OutputFile csv(options.csv);
+        sfsm::write_trace_header(csv.stream(), trace.settings);
+        for (const sfsm::TraceRow& row : trace.rows) sfsm::write_trace_row(csv.stream(), row);
+        csv.commit();
+    }
+    const std::string default_summary = options.csv == "-" ? "" : "-";
+    const std::string& summary = options.summary.empty() ? default_summary : options.summary;
+    if (!summary.empty()) {
+        apps::write_output(summary, sfsm::summary_json(sfsm::summarize(trace.rows), trace.settings));
+    }
+    return 0;
+}
+
+// What CLI11 cannot see; throws std::invalid_argument.
+void check(const Options& options) {
+    if (options.csv == "-" && options.summary == "-") {
+        throw std::invalid_argument("found --csv - and --summary -, expected at most one of them on standard output");
+    }
+    if (!options.target_ms.empty()) sfsm::TargetSchedule::parse(options.target_ms);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Feeds a recorded run through a control law and writes what the law would decide.", "replay");
+    Options options;
+    add_options(app, options);
+    try {
+        app.parse(argc, argv);
+        check(options);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+        return report(std::string(error.what()) + " (see replay --help)", exit_usage);
+    } catch (const std::invalid_argument& error) {
+        return report(std::string(error.what()) + " (see replay --help)", exit_usage);
+    }
+    try {
+        return options.verify ? verify(options.trace) : replay(options);
+    } catch (const std::exception& error) {
+        return report(error.what(), exit_failure);
+    }
+}
