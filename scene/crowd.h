@@ -3,10 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <span>
 #include <vector>
-
-#include <glm/glm.hpp>
 
 #include "motion/pose.h"
 #include "motion/pose_table.h"
@@ -21,13 +20,13 @@ inline constexpr int role_count = 4;
 // several (then a person changes between them from clip to clip), the first being the calm one.
 struct Acts {
     std::vector<std::uint8_t> calm;     // never empty
-    std::vector<std::uint8_t> excited;  // may be empty
+    std::vector<std::uint8_t> excited;  // may be empty; the first is what a Mexican wave shows: arms up
 };
 
 struct CastMember {
     std::string name;
     Acts acts[role_count];
-    bool sits = false;                  // the spectator clips are seated ones; else spectators stand in front of their seat
+    bool sits = false;  // the spectator clips are seated ones; else spectators stand in front of their seat
     float gait_speed[role_count] = {};  // [m/s] at person height 1.75 m, of walkers and runners
 };
 
@@ -38,20 +37,21 @@ struct Palette {
 
 struct CrowdBlock {
     std::uint32_t first = 0, count = 0;
-    motion::Bounds box;   // [m] of everything its people may touch in any clip at any time
+    motion::Bounds box;  // [m] of everything its people may touch in any clip at any time
 };
 
 struct Crowd {
     // One element a person, blocks contiguous.
-    std::vector<glm::vec3> position;    // [m] feet; for walkers and runners x = lane offset [m], y = 0, z = arc at tick 0 [m]
-    std::vector<float> yaw;             // [rad]
-    std::vector<float> height;          // [m] standing, 1.5-2.0
+    std::vector<glm::vec3>
+        position;               // [m] feet; for walkers and runners x = lane offset [m], y = 0, z = arc at tick 0 [m]
+    std::vector<float> yaw;     // [rad]
+    std::vector<float> height;  // [m] standing, 1.5-2.0
     std::vector<std::uint8_t> character;
     std::vector<Role> role;
-    std::vector<std::uint32_t> hash;    // the person's own random bits: phase, stagger, acts
+    std::vector<std::uint32_t> hash;  // the person's own random bits: phase, stagger, acts
     std::vector<Palette> palette;
     std::vector<CrowdBlock> blocks;
-    Oval oval;                          // the track
+    Oval oval;  // the track
 
     std::size_t size() const { return position.size(); }
 };
@@ -62,12 +62,12 @@ struct Placement {
     float yaw;           // [rad]
 };
 struct Action {
-    std::uint8_t clip;        // into PoseTable::clips
-    std::int64_t clip_tick;   // of the clip's own time
+    std::uint8_t clip;       // into PoseTable::clips
+    std::int64_t clip_tick;  // of the clip's own time
 };
 
-// Seats first (seeded choice of who sits where, athletes on the track), then the pitch and around, out to as far as it takes.
-// `people` in [1, 10'000'000]. The cast's poses are needed for the blocks' boxes: one PoseTable a member.
+// Seats first (seeded choice of who sits where, athletes on the track), then the pitch and around, out to as far as it
+// takes. `people` in [1, 10'000'000]. The cast's poses are needed for the blocks' boxes: one PoseTable a member.
 Crowd populate(const StadiumPlan& plan, std::int64_t people, std::span<const CastMember> cast,
                std::span<const motion::PoseTable> poses, std::uint64_t seed);
 
@@ -75,6 +75,7 @@ Placement place(const Crowd& crowd, std::size_t person, const CastMember& member
 
 // What `person` does at `tick` of the scene: phase, choice between acts (cheering travels around the stadium as a
 // wave now and then), all from hash and tick.
-Action act(const Crowd& crowd, std::size_t person, const CastMember& member, const motion::PoseTable& poses, std::int64_t tick);
+Action act(const Crowd& crowd, std::size_t person, const CastMember& member, const motion::PoseTable& poses,
+           std::int64_t tick);
 
 }  // namespace scene

@@ -2,9 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
-
 #include <glm/glm.hpp>
+#include <vector>
 
 #include "motion/pose.h"
 #include "scene/oval.h"
@@ -12,29 +11,59 @@
 namespace scene {
 
 struct Seat {
-    glm::vec3 position;    // [m] where the hips go, on the floor of the row: the seat's surface is person.h's seat_height above
-    float yaw;             // [rad] facing (sin yaw, 0, cos yaw), towards the pitch
+    glm::vec3
+        position;  // [m] where the hips go, on the floor of the row: the seat's surface is person.h's seat_height above
+    float yaw;     // [rad] facing (sin yaw, 0, cos yaw), towards the pitch
+    std::uint16_t row, section;  // into StadiumPlan::rows; between spokes `section` and `section` + 1
+};
+
+// A radial line through the corners of all rows: the middle of an aisle. Between two spokes rows run straight, as
+// precast terraces do, so that seats and steps agree exactly however few triangles the steps are made of.
+struct Spoke {
+    glm::vec2 foot;     // [m] x, z where it leaves the inner line
+    glm::vec2 outward;  // unit x, z
+    glm::vec2 at(float offset) const { return foot + offset * outward; }
+};
+
+// One step of the stand: the tread from `offset` to `offset` + row_depth.
+struct Row {
+    float offset;  // [m] outward from the inner line to the tread's front edge, along the spokes
+    float floor;   // [m] height of the tread
+    std::uint32_t first_seat, seat_count;  // into StadiumPlan::seats
+};
+
+// A canopy that rises from its outer to its inner edge. No roof: both offsets are equal.
+struct Roof {
+    float inner_offset = 0, outer_offset = 0;  // [m] outward from the inner line
+    float inner_height = 0, outer_height = 0;  // [m] of its top
 };
 
 // Rows of seats in one or two tiers around the oval, in sections between aisles.
 struct StadiumPlan {
+    std::int64_t people = 0;  // planned for
     Oval oval;
-    float stand_offset = 0;     // [m] outward from the inner line to the first row
-    float outer_offset = 0;     // [m] to the outer wall
-    float rim_height = 0;       // [m] highest built thing
-    std::vector<Seat> seats;    // row by row, each row in the order of its arc
+    float stand_offset = 0;        // [m] outward from the inner line to the first row
+    float outer_offset = 0;        // [m] to the outer wall
+    float rim_height = 0;          // [m] top of the roof, or of the outer wall if there is none; masts rise above it
+    float crowd_offset = 0;        // [m] about as far out as anybody stands: outer_offset if nobody stands outside
+    std::vector<Spoke> spokes;     // in the order of arc, around the whole oval
+    std::vector<Row> rows;         // upward
+    std::uint32_t lower_rows = 0;  // rows below the concourse; all of them if there is one tier
+    Roof roof;
+    std::vector<Seat> seats;  // row by row, each row in the order of its arc
 };
 
-// As many rows as it takes to seat `people` with a few seats to spare, within 8 to 60 rows.
+// As many rows as it takes to seat `people` (athletes aside) with a few seats to spare, within 8 to 60 rows.
+// `people` >= 1.
 StadiumPlan plan_stadium(std::int64_t people);
 
 // What the ground shader draws instead of a plain colour.
 enum class Surface : std::uint8_t { painted, ground };
 
 struct StaticVertex {
-    glm::vec3 position;   // [m]
-    glm::vec3 normal;     // unit
-    glm::u8vec4 color;    // sRGB; alpha: static_cast of Surface
+    glm::vec3 position;  // [m]
+    glm::vec3 normal;    // unit
+    glm::u8vec4 color;   // sRGB; alpha: static_cast of Surface
 };
 
 // Part of the structure that is drawn or culled as one.
@@ -49,7 +78,7 @@ struct StaticMesh {
     std::vector<StaticSector> sectors;
 };
 
-// Steps, seats, walls, roof, rim, floodlights, and the ground: pitch, track and surroundings out to 1 km.
+// Steps, seats, walls, roof, rim, floodlights, and the ground: pitch, track and surroundings out to 2 km.
 StaticMesh build_structure(const StadiumPlan& plan);
 
 }  // namespace scene

@@ -1,0 +1,310 @@
+// build_structure: profiles swept from spoke to spoke, and what stands beside them. All surfaces are single-sided
+// and flat-shaded: a quad has four vertices of its own.
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <initializer_list>
+#include <span>
+
+#include "scene/layout.h"
+#include "scene/person.h"
+#include "scene/stadium.h"
+
+namespace scene {
+
+namespace {
+
+using Color = glm::u8vec4;
+
+constexpr Color painted(int red, int green, int blue) {
+    return {static_cast<std::uint8_t>(red), static_cast<std::uint8_t>(green), static_cast<std::uint8_t>(blue),
+            static_cast<std::uint8_t>(Surface::painted)};
+}
+
+constexpr Color tread_grey = painted(158, 157, 152), riser_grey = painted(132, 131, 127);
+constexpr Color aisle_grey = painted(198, 196, 188), wall_grey = painted(176, 175, 170);
+constexpr Color facade_dark = painted(92, 98, 108), facade_light = painted(196, 199, 203);
+constexpr Color doorway = painted(38, 40, 44), coping = painted(222, 221, 216);
+constexpr Color roof_white = painted(236, 238, 240), roof_under = painted(188, 192, 197);
+constexpr Color steel = painted(214, 218, 222), lamp = painted(255, 252, 236);
+constexpr Color screen_frame = painted(30, 32, 38), screen_light = painted(70, 120, 170);
+constexpr Color paving = {146, 143, 137, static_cast<std::uint8_t>(Surface::ground)};
+constexpr std::array seat_colors{painted(24, 62, 122), painted(52, 104, 170), painted(206, 214, 224)};
+constexpr std::array advert_colors{painted(190, 34, 46),  painted(242, 242, 238), painted(20, 92, 62),
+                                   painted(240, 176, 32), painted(28, 54, 112),   painted(242, 242, 238)};
+
+// Sections drawn as one: 16 to 24 sectors of the whole.
+constexpr std::size_t target_sectors = 22;
+
+// A corner of a profile: offset outward from the inner line, and height, both [m].
+struct Corner {
+    float offset, height;
+};
+
+// A place along a section's chord.
+struct Along {
+    float share;  // of the way from its first spoke to its second
+    float shift;  // [m] further
+};
+
+glm::vec3 lift(glm::vec2 xz, float height) {
+    return {xz.x, height, xz.y};
+}
+
+struct Builder {
+    const StadiumPlan& plan;
+    StaticMesh mesh;
+
+    // a, b, c, d counter-clockwise seen from the visible side.
+    void quad(glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d, Color color) {
+        const glm::vec3 normal = glm::normalize(glm::cross(c - a, d - b));
+        const std::uint32_t first = static_cast<std::uint32_t>(mesh.vertices.size());
+        for (const glm::vec3& corner : {a, b, c, d}) mesh.vertices.push_back({corner, normal, color});
+        for (const std::uint32_t index : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + index);
+    }
+
+    glm::vec2 on_chord(std::size_t section, Along along, float offset) const {
+        const glm::vec2 from = plan.spokes[section].at(offset);
+        const glm::vec2 to = plan.spokes[(section + 1) % plan.spokes.size()].at(offset);
+        return glm::mix(from, to, along.share) + along.shift * glm::normalize(to - from);
+    }
+
+    // From `from` to `to` in profile, between `begin` and `end` along the section. Seen from the side that the
+    // pitch sees when the profile climbs, from above when it goes outward.
+    void sweep(std::size_t section, Corner from, Corner to, Along begin, Along end, Color color) {
+        quad(lift(on_chord(section, end, from.offset), from.height),
+             lift(on_chord(section, begin, from.offset), from.height),
+             lift(on_chord(section, begin, to.offset), to.height), lift(on_chord(section, end, to.offset), to.height),
+             color);
+    }
+
+    void sweep(std::size_t section, Corner from, Corner to, Color color) {
+        sweep(section, from, to, {0, 0}, {1, 0}, color);
+    }
+
+    // A four-sided column from `foot` to `head`, `width` [m] wide, open at both ends. Its sides are parallel to `x`.
+    void column(glm::vec3 foot, glm::vec3 head, glm::vec3 x, float width, float head_width, Color color) {
+        const glm::vec3 axis = glm::normalize(head - foot);
+        const glm::vec3 y = glm::normalize(glm::cross(axis, x));
+        const glm::vec3 side = glm::cross(y, axis);
+        const auto corner = [&](glm::vec3 end, float size, int i) {
+            const float u = i == 0 || i == 3 ? -0.5f : 0.5f, v = i < 2 ? -0.5f : 0.5f;
+            return end + size * (u * side + v * y);
+        };
+        for (int i = 0; i < 4; ++i) {
+            const int next = (i + 1) % 4;
+            quad(corner(foot, width, i), corner(foot, width, next), corner(head, head_width, next),
+                 corner(head, head_width, i), color);
+        }
+    }
+
+    // All six sides of a box with half axes x, y, z, right-handed.
+    void box(glm::vec3 center, glm::vec3 x, glm::vec3 y, glm::vec3 z, Color front, Color others) {
+        const auto face = [&](glm::vec3 out, glm::vec3 right, glm::vec3 up, Color color) {
+            const glm::vec3 middle = center + out;
+            quad(middle - right - up, middle + right - up, middle + right + up, middle - right + up, color);
+        };
+        face(z, x, y, front);
+        face(-z, -x, y, others);
+        face(x, -z, y, others);
+        face(-x, z, y, others);
+        face(y, x, -z, others);
+        face(-y, x, z, others);
+    }
+
+    // Everything added since `first_index` becomes a sector.
+    void close_sector(std::uint32_t first_index) {
+        StaticSector sector;
+        sector.first_index = first_index;
+        sector.index_count = static_cast<std::uint32_t>(mesh.indices.size()) - first_index;
+        assert(sector.index_count > 0);
+        sector.box.min = sector.box.max = mesh.vertices[mesh.indices[first_index]].position;
+        for (const std::uint32_t index : std::span(mesh.indices).subspan(first_index)) {
+            sector.box.min = glm::min(sector.box.min, mesh.vertices[index].position);
+            sector.box.max = glm::max(sector.box.max, mesh.vertices[index].position);
+        }
+        mesh.sectors.push_back(sector);
+    }
+};
+
+// Wall with advertising, coping, and the walkway behind it up to the first row.
+void add_front_wall(Builder& builder, std::size_t section) {
+    const float top = first_floor + parapet_height;
+    const float back = wall_offset + parapet_depth;
+    constexpr float band_bottom = 0.15f, band_top = 1.05f;  // [m]
+    const Color advert = advert_colors[section % advert_colors.size()];
+    builder.sweep(section, {wall_offset, 0}, {wall_offset, band_bottom}, wall_grey);
+    builder.sweep(section, {wall_offset, band_bottom}, {wall_offset, band_top}, advert);
+    builder.sweep(section, {wall_offset, band_top}, {wall_offset, top}, wall_grey);
+    builder.sweep(section, {wall_offset, top}, {back, top}, coping);
+    builder.sweep(section, {back, top}, {back, first_floor}, wall_grey);
+    builder.sweep(section, {back, first_floor}, {first_row_offset, first_floor}, tread_grey);
+}
+
+Color seat_color(std::size_t section, std::size_t row) {
+    constexpr std::size_t band = 7;  // rows: the pattern climbs the stand in steps
+    return seat_colors[(section + row / band) % seat_colors.size()];
+}
+
+// A row's bench of shells: lip, surface, and the two faces of the back.
+void add_seats(Builder& builder, std::size_t section, std::size_t row) {
+    constexpr float lip = 0.12f, front = 0.22f, back = 0.18f,
+                    back_top = 0.8f;  // [m] around the hips and above the floor
+    constexpr Along begin{0, aisle_width / 2}, end{1, -aisle_width / 2};
+    const float hips = builder.plan.rows[row].offset + hips_depth, floor = builder.plan.rows[row].floor;
+    const float surface = floor + seat_height;
+    const Color color = seat_color(section, row);
+    builder.sweep(section, {hips - front, surface - lip}, {hips - front, surface}, begin, end, color);
+    builder.sweep(section, {hips - front, surface}, {hips + back, surface}, begin, end, color);
+    builder.sweep(section, {hips + back, surface}, {hips + back, floor + back_top}, begin, end, color);
+    builder.sweep(section, {hips + back, floor + back_top}, {hips + back, floor + row_depth / 4}, begin, end, color);
+}
+
+// Half a step in the aisle, against the riser to the next row.
+void add_aisle_step(Builder& builder, std::size_t spoke, std::size_t row) {
+    const Row& here = builder.plan.rows[row];
+    const float rise = (builder.plan.rows[row + 1].floor - here.floor) / 2;
+    const glm::vec2 outward = builder.plan.spokes[spoke].outward;
+    const glm::vec2 side = aisle_width / 2 * glm::vec2(outward.y, -outward.x);
+    const glm::vec2 front = builder.plan.spokes[spoke].at(here.offset + row_depth / 2);
+    const glm::vec2 back = builder.plan.spokes[spoke].at(here.offset + row_depth);
+    const float top = here.floor + rise;
+    builder.quad(lift(front + side, here.floor), lift(front - side, here.floor), lift(front - side, top),
+                 lift(front + side, top), riser_grey);
+    builder.quad(lift(front + side, top), lift(front - side, top), lift(back - side, top), lift(back + side, top),
+                 aisle_grey);
+}
+
+// From one row's tread up to the next: a riser, or the walkway and wall between the tiers with a doorway.
+void add_rise(Builder& builder, std::size_t section, std::size_t row) {
+    const Row& here = builder.plan.rows[row];
+    const Row& next = builder.plan.rows[row + 1];
+    const float end = here.offset + row_depth;
+    if (row + 1 != builder.plan.lower_rows) {
+        builder.sweep(section, {end, here.floor}, {next.offset, next.floor}, riser_grey);
+        return;
+    }
+    constexpr float door = 4.2f, door_height = 2.2f;  // [m] from the spokes to the jambs
+    const float face = next.offset - parapet_depth, top = next.floor + parapet_height;
+    const float lintel = here.floor + door_height;
+    builder.sweep(section, {end, here.floor}, {face, here.floor}, tread_grey);
+    builder.sweep(section, {face, here.floor}, {face, lintel}, {0, 0}, {0, door}, wall_grey);
+    builder.sweep(section, {face, here.floor}, {face, lintel}, {0, door}, {1, -door}, doorway);
+    builder.sweep(section, {face, here.floor}, {face, lintel}, {1, -door}, {1, 0}, wall_grey);
+    builder.sweep(section, {face, lintel}, {face, top}, seat_colors[0]);
+    builder.sweep(section, {face, top}, {next.offset, top}, coping);
+    builder.sweep(section, {next.offset, top}, {next.offset, next.floor}, wall_grey);
+}
+
+void add_rows(Builder& builder, std::size_t section) {
+    const std::vector<Row>& rows = builder.plan.rows;
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+        const float end = rows[row].offset + row_depth;
+        builder.sweep(section, {rows[row].offset, rows[row].floor}, {end, rows[row].floor}, tread_grey);
+        add_seats(builder, section, row);
+        if (row + 1 == rows.size()) break;
+        add_rise(builder, section, row);
+        if (row + 1 != builder.plan.lower_rows) add_aisle_step(builder, section, row);
+    }
+}
+
+// The walkway behind the last row, the wall at its back, and the facade down to the plaza.
+void add_back(Builder& builder, std::size_t section) {
+    const StadiumPlan& plan = builder.plan;
+    const Row& last = plan.rows.back();
+    constexpr float wall_above = 1.4f, thickness = 0.3f, plinth = 3.2f;  // [m]
+    const float inner = plan.outer_offset - thickness, outer = plan.outer_offset, top = last.floor + wall_above;
+    builder.sweep(section, {last.offset + row_depth, last.floor}, {inner, last.floor}, tread_grey);
+    builder.sweep(section, {inner, last.floor}, {inner, top}, wall_grey);
+    builder.sweep(section, {inner, top}, {outer, top}, coping);
+    builder.sweep(section, {outer, top}, {outer, last.floor - 1.0f}, facade_light);
+    const bool gate = section % 4 == 1;
+    builder.sweep(section, {outer, last.floor - 1.0f}, {outer, plinth},
+                  section % 2 == 0 ? facade_dark : seat_colors[0]);
+    builder.sweep(section, {outer, plinth}, {outer, 0}, gate ? doorway : facade_light);
+}
+
+// The canopy: top, underside, both edges.
+void add_roof(Builder& builder, std::size_t section) {
+    constexpr float thickness = 0.6f;  // [m]
+    const Roof& roof = builder.plan.roof;
+    const Corner inner_top{roof.inner_offset, roof.inner_height}, outer_top{roof.outer_offset, roof.outer_height};
+    const Corner inner{roof.inner_offset, roof.inner_height - thickness};
+    const Corner outer{roof.outer_offset, roof.outer_height - thickness};
+    builder.sweep(section, inner, inner_top, roof_white);
+    builder.sweep(section, inner_top, outer_top, roof_white);
+    builder.sweep(section, outer_top, outer, roof_white);
+    builder.sweep(section, outer, inner, roof_under);
+}
+
+// A mast on the outer wall that holds the roof by a stay to its inner edge.
+void add_roof_mast(Builder& builder, std::size_t spoke) {
+    const StadiumPlan& plan = builder.plan;
+    const Roof& roof = plan.roof;
+    constexpr float above_roof = 5.0f, width = 0.5f, stay_width = 0.14f;  // [m]
+    const Spoke& at = plan.spokes[spoke];
+    const glm::vec3 side{at.outward.y, 0, -at.outward.x};
+    const glm::vec2 foot = at.at(plan.outer_offset + width / 2);
+    const glm::vec3 head = lift(foot, roof.outer_height + above_roof);
+    builder.column(lift(foot, 0), head, side, width, width / 2, steel);
+    builder.column(head, lift(at.at(roof.inner_offset + 1.0f), roof.inner_height), side, stay_width, stay_width, steel);
+}
+
+void add_floodlight(Builder& builder, int light) {
+    const glm::vec2 foot = floodlight_foot(builder.plan, light);
+    const float height = builder.plan.rim_height + floodlight_height;
+    builder.column(lift(foot, 0), lift(foot, height), {1, 0, 0}, 1.4f, 0.7f, steel);
+    const glm::vec3 head = lift(foot, height);
+    const glm::vec3 front = glm::normalize(-head);  // the panel looks at the centre spot
+    const glm::vec3 right = glm::normalize(glm::cross(glm::vec3(0, 1, 0), front));
+    const glm::vec3 up = glm::cross(front, right);
+    constexpr float half_width = 3.6f, half_height = 2.4f, half_depth = 0.3f;  // [m]
+    builder.box(head, half_width * right, half_height * up, half_depth * front, lamp, steel);
+}
+
+// One flat sheet, finer where cameras are, so that world x and z interpolate exactly enough to draw lines from.
+void add_ground(Builder& builder) {
+    constexpr std::array lines{-2000.0f, -1000.0f, -500.0f, -250.0f, -120.0f, -80.0f,  -40.0f, 0.0f,
+                               40.0f,    80.0f,    120.0f,  250.0f,  500.0f,  1000.0f, 2000.0f};  // [m]
+    for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
+        for (std::size_t j = 0; j + 1 < lines.size(); ++j) {
+            const float x0 = lines[i], x1 = lines[i + 1], z0 = lines[j], z1 = lines[j + 1];
+            builder.quad({x0, 0, z1}, {x1, 0, z1}, {x1, 0, z0}, {x0, 0, z0}, paving);
+        }
+    }
+}
+
+void add_section(Builder& builder, std::size_t section) {
+    add_front_wall(builder, section);
+    add_rows(builder, section);
+    add_back(builder, section);
+    if (builder.plan.roof.inner_offset < builder.plan.roof.outer_offset) {
+        add_roof(builder, section);
+        if (section % 2 == 0) add_roof_mast(builder, section);
+    }
+}
+
+}  // namespace
+
+StaticMesh build_structure(const StadiumPlan& plan) {
+    Builder builder{plan, {}};
+    const std::size_t sections = plan.spokes.size();
+    const std::size_t sectors = std::min(sections, target_sectors);
+    for (std::size_t sector = 0; sector < sectors; ++sector) {
+        const std::uint32_t first = static_cast<std::uint32_t>(builder.mesh.indices.size());
+        for (std::size_t i = sector * sections / sectors; i < (sector + 1) * sections / sectors; ++i) {
+            add_section(builder, i);
+        }
+        builder.close_sector(first);
+    }
+    std::uint32_t first = static_cast<std::uint32_t>(builder.mesh.indices.size());
+    for (int light = 0; light < floodlight_count; ++light) add_floodlight(builder, light);
+    builder.close_sector(first);
+    first = static_cast<std::uint32_t>(builder.mesh.indices.size());
+    add_ground(builder);
+    builder.close_sector(first);
+    return std::move(builder.mesh);
+}
+
+}  // namespace scene
