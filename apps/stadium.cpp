@@ -1,0 +1,265 @@
+// The roaming stadium: one loop from a measured time to the next decision.
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "apps/free_camera.h"
+#include "apps/progress.h"
+#include "apps/scene_clock.h"
+#include "apps/stadium_options.h"
+#include "apps/stadium_outputs.h"
+#include "apps/stage.h"
+#include "render/device.h"
+#include "render/frame.h"
+#include "render/headless.h"
+#include "render/select.h"
+#include "render/timer.h"
+#include "render/window.h"
+#include "scene/camera_path.h"
+#include "sfsm/controller.h"
+
+namespace apps {
+
+namespace {
+
+constexpr std::int64_t headless_frames = 300;
+constexpr const char* presets[] = {"still", "close", "medium", "remote", "roam"};  // keys 1 to 5
+
+volatile std::sig_atomic_t interrupted = 0;
+
+// Where the pictures go: a window, or nowhere. Its context is current.
+struct Surface {
+    std::unique_ptr<render::Window> window;
+    std::unique_ptr<render::HeadlessContext> headless;
+
+    explicit Surface(const StadiumOptions& options) {
+        if (!options.headless && render::Window::display_available())
+            window = std::make_unique<render::Window>("Grandstand", options.width, options.height);
+        else
+            headless = std::make_unique<render::HeadlessContext>();
+    }
+};
+
+// What --state asks for in place of a law's decision; the distances are those the paper's machine starts and leaves at.
+sfsm::Decision fixed_decision(const StadiumOptions& options, sfsm::State state, double range) {
+    constexpr double default_splat_size = 2;  // [px]
+    sfsm::Decision decision;
+    decision.state = state;
+    if (state == sfsm::State::slowed) decision.motion_distance = options.motion_distance.value_or(5.0 / 6.0 * range);
+    if (state == sfsm::State::points) {
+        decision.motion_distance = options.motion_distance.value_or(2.0 / 3.0 * range);
+        decision.splat_size = options.splat_size.value_or(default_splat_size);
+    }
+    return decision;
+}
+
+class Stadium {
+public:
+    explicit Stadium(const StadiumOptions& options)
+        : options_(options),
+          controller_(sfsm::make_controller(options.law)),
+          surface_(options),
+          device_(render::read_device()),
+          stage_(build_stage(options.characters, options.people, options.seed)),
+          path_(scene::is_preset(options.camera) ? scene::preset_path(options.camera, stage_->plan)
+                                                 : scene::load_camera_path(options.camera)),
+          renderer_(stage_->structure, stage_->plan, stage_->figure_assets(), options.width, options.height),
+          selector_(stage_->crowd, stage_->figures()),
+          timer_(device_),
+          clock_(options.fixed_step || surface_.headless),
+          width_(options.width),
+          height_(options.height) {
+        warm_up();
+    }
+
+    void run(const StadiumOutputs& outputs) {
+        const std::int64_t frames = options_.frames.value_or(surface_.window ? 0 : headless_frames);
+        ProgressBar bar("Drawing");
+        for (std::int64_t frame = 0; (frames == 0 || frame < frames) && !interrupted; ++frame) {
+            if (surface_.window && !follow_user()) break;
+            if (const auto time = draw(frame)) learn(*time);
+            if (outputs.wants_picture(frame)) outputs.write_picture(frame, renderer_.read_image());
+            if (surface_.window) show(frame);
+            if (frames > 0) bar(static_cast<double>(frame + 1) / static_cast<double>(frames));
+            elapsed_ = clock_.advance();
+        }
+        while (const auto time = timer_.drain()) learn(*time);
+    }
+
+    render::Image picture() const { return renderer_.read_image(); }
+    std::span<const sfsm::TraceRow> rows() const { return rows_; }
+
+    // What a trace must say for the run to be repeated and its decisions verified.
+    std::map<std::string, std::string> settings() const {
+        return {{"version", GRANDSTAND_VERSION},
+                {"device", device_.renderer},
+                {"driver", device_.version},
+                {"law", options_.law},
+                {"state", options_.state ? std::to_string(static_cast<int>(*options_.state)) : "auto"},
+                {"delay", std::to_string(timer_.delay())},
+                {"target_ms", options_.target.text()},
+                {"people", std::to_string(options_.people)},
+                {"character", character_names()},
+                {"camera", options_.camera},
+                {"size", std::to_string(options_.width) + "x" + std::to_string(options_.height)},
+                {"seed", std::to_string(options_.seed)}};
+    }
+
+private:
+    // Shaders compile at the first draw that needs them: draw both representations before any time is taken.
+    void warm_up() {
+        const render::View view = view_now();
+        const double range = selector_.visible_range(view);
+        for (const sfsm::State state : {sfsm::State::original, sfsm::State::points}) {
+            const sfsm::Decision decision = fixed_decision(options_, state, range);
+            renderer_.draw(view, selector_.select(view, decision, 0, -1), decision.splat_size);
+        }
+        renderer_.read_image();  // waits for them
+    }
+
+    render::View view_now() const {
+        const scene::CameraPose pose = flight_ ? flight_->pose() : path_.at(clock_.seconds());
+        return render::make_view(pose, width_, height_);
+    }
+
+    std::optional<render::FrameTime> draw(std::int64_t frame) {
+        const render::View view = view_now();
+        sfsm::TraceRow row;
+        row.frame = frame;
+        row.target_ms = target_scale_ * options_.target.at(frame);
+        row.range = selector_.visible_range(view);
+        row.decision = options_.state ? fixed_decision(options_, *options_.state, row.range)
+                                      : controller_->decide(row.target_ms, row.range);
+        timer_.begin(frame);
+        const render::Selection& selection = selector_.select(view, row.decision, clock_.tick(), last_tick_);
+        renderer_.draw(view, selection, row.decision.splat_size);
+        const auto time = timer_.end();
+        row.work = selection.work;
+        rows_.push_back(row);
+        last_tick_ = clock_.tick();
+        return time;
+    }
+
+    // A time has arrived: it belongs to the decision of its own frame, which may be some frames back.
+    void learn(const render::FrameTime& time) {
+        sfsm::TraceRow& row = rows_[static_cast<std::size_t>(time.frame)];
+        row.frame_ms = last_ms_ = time.frame_ms;
+        row.cpu_ms = time.cpu_ms;
+        row.gpu_ms = time.gpu_ms;
+        controller_->observe({time.frame, time.frame_ms, row.decision, row.work});
+    }
+
+    // False: the user has left.
+    bool follow_user() {
+        render::Window& window = *surface_.window;
+        const render::Input input = window.poll();
+        if (window.closed()) return false;
+        if (!flight_ && FreeCamera::steers(input)) flight_.emplace(path_.at(clock_.seconds()));
+        if (flight_) flight_->move(input, elapsed_);
+        for (const render::Command command : input.commands) obey(command);
+        const bool resized = window.width() != width_ || window.height() != height_;
+        if (resized && window.width() > 0 && window.height() > 0) {
+            width_ = window.width();
+            height_ = window.height();
+            renderer_.resize(width_, height_);
+        }
+        return true;
+    }
+
+    void obey(render::Command command) {
+        constexpr double target_step = 1.1;
+        switch (command) {
+            case render::Command::raise_target:
+                target_scale_ *= target_step;
+                break;
+            case render::Command::lower_target:
+                target_scale_ /= target_step;
+                break;
+            case render::Command::pause:
+                clock_.paused = !clock_.paused;
+                break;
+            case render::Command::screenshot:
+                screenshot();
+                break;
+            default:
+                flight_.reset();
+                path_ = scene::preset_path(presets[static_cast<int>(command)], stage_->plan);
+        }
+    }
+
+    void screenshot() {
+        const std::string name = "stadium-" + std::to_string(++screenshots_) + ".png";
+        write_png(name, renderer_.read_image());
+        std::fprintf(stderr, "saved %s\n", name.c_str());
+    }
+
+    void show(std::int64_t frame) {
+        constexpr std::int64_t title_period = 10;  // [frames]; faster can't be read
+        if (frame % title_period == 0) surface_.window->set_title(title());
+        renderer_.present(surface_.window->width(), surface_.window->height());
+        surface_.window->swap();
+    }
+
+    std::string title() const {
+        const sfsm::TraceRow& row = rows_.back();
+        char text[200];
+        std::snprintf(text, sizeof text, "Grandstand  %.1f / %.1f ms  state %d  D %.0f m  S %.1f px  %lld people%s",
+                      last_ms_, row.target_ms, static_cast<int>(row.decision.state), row.decision.motion_distance,
+                      row.decision.splat_size, static_cast<long long>(row.work.people),
+                      clock_.paused ? "  paused" : "");
+        return text;
+    }
+
+    std::string character_names() const {
+        std::string names;
+        for (const scene::CastMember& member : stage_->cast) names += (names.empty() ? "" : " ") + member.name;
+        return names;
+    }
+
+    const StadiumOptions& options_;
+    std::unique_ptr<sfsm::Controller> controller_;
+    Surface surface_;
+    render::Device device_;
+    std::unique_ptr<Stage> stage_;
+    scene::CameraPath path_;
+    render::Renderer renderer_;
+    render::Selector selector_;
+    render::FrameTimer timer_;
+    SceneClock clock_;
+    std::optional<FreeCamera> flight_;  // instead of the path once the user steers
+    std::vector<sfsm::TraceRow> rows_;  // one a frame; the times come later
+    std::int64_t last_tick_ = -1;
+    double elapsed_ = 0;  // [s] since the last frame
+    double last_ms_ = 0;
+    double target_scale_ = 1;  // the user's + and -
+    int width_, height_;       // [px]
+    int screenshots_ = 0;
+};
+
+void run(const StadiumOptions& options) {
+    StadiumOutputs outputs(options);
+    Stadium stadium(options);
+    stadium.run(outputs);
+    outputs.finish(stadium.rows(), stadium.settings(),
+                   outputs.wants_last_picture() ? stadium.picture() : render::Image{});
+}
+
+}  // namespace
+
+}  // namespace apps
+
+int main(int argc, char** argv) {
+    std::signal(SIGINT, [](int) { apps::interrupted = 1; });
+    try {
+        apps::run(apps::parse_stadium_options(argc, argv));
+        return 0;
+    } catch (const apps::Exit& exit) {
+        return exit.code;
+    } catch (const std::exception& error) {
+        std::cerr << "stadium: " << error.what() << "\n";
+        return 1;
+    }
+}

@@ -1,0 +1,43 @@
+// The stadium program's command line.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "sfsm/decision.h"
+#include "sfsm/target.h"
+
+namespace apps {
+
+struct StadiumOptions {
+    std::int64_t people = 20000;  // [1, 1'000'000]
+    std::vector<std::filesystem::path> characters;
+    sfsm::TargetSchedule target = sfsm::TargetSchedule::parse("16.6");
+    std::string law;
+    std::optional<sfsm::State> state;       // empty: the law decides
+    std::optional<double> splat_size;       // [px] of a fixed state 2
+    std::optional<double> motion_distance;  // [m] of a fixed state 1 or 2
+    std::string camera = "roam";            // a preset or a path file
+    std::optional<std::int64_t> frames;     // empty: 300 without a window, until it is closed with one
+    int width = 1280, height = 720;         // [px]
+    std::uint64_t seed = 1;
+    bool headless = false;
+    bool fixed_step = false;
+    std::string trace, png, png_directory, summary;  // paths; empty: none; "-": stdout
+    std::int64_t png_every = 0;                      // [frames] 0: none
+};
+
+// What the command line asks for besides a run.
+struct Exit {
+    int code;
+};
+
+// Throws Exit after --help or --version has been printed, or after one line on stderr about what is wrong with the
+// arguments.
+StadiumOptions parse_stadium_options(int argc, char** argv);
+
+}  // namespace apps

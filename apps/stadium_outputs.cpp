@@ -1,0 +1,84 @@
+#include "apps/stadium_outputs.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <stdexcept>
+#include <system_error>
+
+#include "sfsm/summary.h"
+
+namespace apps {
+
+namespace {
+
+void put_png(std::ostream& out, const render::Image& image) {
+    const std::vector<std::uint8_t> bytes = render::encode_png(image);
+    out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+}
+
+void print_summary(const sfsm::Summary& summary, const std::map<std::string, std::string>& settings) {
+    const auto percent = [](double share) { return 100.0 * share; };
+    std::printf("%s people on %s\n", settings.at("people").c_str(), settings.at("device").c_str());
+    std::printf("law %s, target %.1f ms, %lld frames, camera %s\n", settings.at("law").c_str(), summary.target_ms,
+                static_cast<long long>(summary.frames), settings.at("camera").c_str());
+    std::printf("frame time    mean %.2f ms   median %.2f ms   99th percentile %.2f ms\n", summary.mean_ms,
+                summary.p50_ms, summary.p99_ms);
+    std::printf(
+        "control rate  %.1f %%   within 5 %%: %.1f %%   within 10 %%: %.1f %%   over by 5 %%: %.1f %% of frames\n",
+        percent(summary.control_rate), percent(summary.within_5pct), percent(summary.within_10pct),
+        percent(summary.over_5pct));
+    std::printf("frames        state 0: %lld   state 1: %lld   state 2: %lld\n",
+                static_cast<long long>(summary.state_frames[0]), static_cast<long long>(summary.state_frames[1]),
+                static_cast<long long>(summary.state_frames[2]));
+}
+
+}  // namespace
+
+void write_png(const std::string& path, const render::Image& image) {
+    OutputFile file(path);
+    put_png(file.stream(), image);
+    file.commit();
+}
+
+StadiumOutputs::StadiumOutputs(const StadiumOptions& options) : options_(options) {
+    if (!options.trace.empty()) trace_.emplace(options.trace);
+    if (!options.png.empty()) png_.emplace(options.png);
+    if (!options.summary.empty()) summary_.emplace(options.summary);
+    if (options.png_every > 0) {
+        std::error_code error;
+        std::filesystem::create_directories(options.png_directory, error);
+        if (error) throw std::runtime_error("cannot make directory " + options.png_directory + ": " + error.message());
+    }
+}
+
+bool StadiumOutputs::wants_picture(std::int64_t frame) const {
+    return options_.png_every > 0 && frame % options_.png_every == 0;
+}
+
+void StadiumOutputs::write_picture(std::int64_t frame, const render::Image& image) const {
+    char name[40];
+    std::snprintf(name, sizeof name, "/frame%06lld.png", static_cast<long long>(frame));
+    write_png(options_.png_directory + name, image);
+}
+
+void StadiumOutputs::finish(std::span<const sfsm::TraceRow> rows, const std::map<std::string, std::string>& settings,
+                            const render::Image& last_picture) {
+    const sfsm::Summary summary = sfsm::summarize(rows);
+    if (trace_) {
+        sfsm::write_trace_header(trace_->stream(), settings);
+        for (const sfsm::TraceRow& row : rows) sfsm::write_trace_row(trace_->stream(), row);
+        trace_->commit();
+    }
+    if (png_) {
+        put_png(png_->stream(), last_picture);
+        png_->commit();
+    }
+    if (summary_) {
+        summary_->stream() << sfsm::summary_json(summary, settings);
+        summary_->commit();
+    }
+    const bool stdout_taken = options_.trace == "-" || options_.png == "-" || options_.summary == "-";
+    if (!stdout_taken) print_summary(summary, settings);
+}
+
+}  // namespace apps

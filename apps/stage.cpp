@@ -1,0 +1,79 @@
+#include "apps/stage.h"
+
+#include <algorithm>
+
+#include "apps/progress.h"
+#include "pointsample/gltf.h"
+#include "scene/cast.h"
+#include "scene/person.h"
+
+namespace apps {
+
+namespace {
+
+// Posed vertices and points of all characters together; what the device holds is twice that.
+constexpr std::size_t pose_byte_budget = std::size_t{256} << 20;
+
+// More points than half its triangles are never drawn of a character: triangles are cheaper then (SelectOptions).
+std::size_t point_count(const motion::Mesh& mesh) {
+    constexpr std::size_t fewest = 64, most = 16384;
+    return std::clamp(mesh.triangle_count() / 2, fewest, most);
+}
+
+// Points are sampled in the pose that most people are seen in, where limbs are apart.
+pointsample::PointModel sample_points(const motion::Character& character, const std::vector<int>& clips,
+                                      std::uint64_t seed) {
+    motion::Pose pose;
+    if (clips.empty())
+        motion::evaluate_rest(character, pose);
+    else
+        motion::evaluate(character, character.clips[clips.front()], 0.0, pose);
+    std::vector<glm::vec3> positions, normals;
+    motion::skin(character.mesh, pose, positions, normals);
+    pointsample::SampleOptions options;
+    options.count = point_count(character.mesh);
+    options.seed = seed;
+    ProgressBar bar("Sampling " + character.name);
+    return pointsample::sample(character.mesh, positions, normals, options, [&](double f) { bar(f); });
+}
+
+void add_character(Stage& stage, motion::Character character, std::uint64_t seed, std::size_t byte_budget) {
+    scene::Casting casting = scene::cast(character);
+    stage.points.push_back(sample_points(character, casting.clips, seed));
+    ProgressBar bar("Posing " + character.name);
+    stage.poses.push_back(motion::bake_poses(character, casting.clips, stage.points.back().surface, byte_budget,
+                                             [&](double f) { bar(f); }));
+    stage.cast.push_back(std::move(casting.member));
+    stage.meshes.push_back(std::move(character.mesh));
+}
+
+}  // namespace
+
+std::vector<render::Figure> Stage::figures() const {
+    std::vector<render::Figure> figures;
+    for (std::size_t i = 0; i < meshes.size(); ++i)
+        figures.push_back({&cast[i], &poses[i], static_cast<std::uint32_t>(meshes[i].triangle_count()), poses[i].area});
+    return figures;
+}
+
+std::vector<render::FigureAssets> Stage::figure_assets() const {
+    std::vector<render::FigureAssets> assets;
+    for (std::size_t i = 0; i < meshes.size(); ++i) assets.push_back({&meshes[i], &poses[i], &points[i]});
+    return assets;
+}
+
+std::unique_ptr<Stage> build_stage(const std::vector<std::filesystem::path>& character_files, std::int64_t people,
+                                   std::uint64_t seed) {
+    auto stage = std::make_unique<Stage>();
+    if (character_files.empty()) add_character(*stage, scene::make_person(), seed, pose_byte_budget);
+    for (const std::filesystem::path& file : character_files)
+        add_character(*stage, pointsample::load_gltf(file), seed, pose_byte_budget / character_files.size());
+    ProgressBar bar("Seating the crowd");
+    stage->plan = scene::plan_stadium(people);
+    stage->structure = scene::build_structure(stage->plan);
+    bar(0.5);
+    stage->crowd = scene::populate(stage->plan, people, stage->cast, stage->poses, seed);
+    return stage;
+}
+
+}  // namespace apps

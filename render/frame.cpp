@@ -1,0 +1,198 @@
+#include "render/frame.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+
+#include "render/program.h"
+#include "shaders/layout.h"
+
+namespace render {
+
+namespace {
+
+static_assert(offsetof(FrameBlock, camera_position) == 64 && offsetof(FrameBlock, splat) == 208 &&
+              sizeof(FrameBlock) == 224);
+static_assert(offsetof(FigureBlock, box_size) == 16 && sizeof(FigureBlock) == 32);
+
+// A clear afternoon; linear light, chosen so that a white shirt in the sun stays just below white.
+const glm::vec3 sun_direction = glm::normalize(glm::vec3(0.45f, 0.72f, 0.38f));
+constexpr glm::vec3 sun_color{0.72f, 0.66f, 0.55f};
+constexpr glm::vec3 sky_light{0.32f, 0.37f, 0.45f};
+constexpr glm::vec3 ground_light{0.14f, 0.14f, 0.12f};
+
+constexpr std::size_t words_per_element_draw = 5;
+constexpr std::size_t words_per_array_draw = 4;
+
+std::uintptr_t bytes(std::size_t words) {
+    return words * sizeof(std::uint32_t);
+}
+
+}  // namespace
+
+Renderer::Renderer(const scene::StaticMesh& structure, const scene::StadiumPlan& plan,
+                   std::span<const FigureAssets> figures, int width, int height)
+    : triangle_program_(build_program("person.vert", "person_triangles.frag")),
+      textured_program_(build_program("person.vert", "person_triangles.frag", {"TEXTURED"})),
+      point_program_(build_program("person.vert", "person_points.frag", {"POINTS"})),
+      structure_program_(build_program("structure.vert", "structure.frag")),
+      ground_program_(build_program("structure.vert", "structure.frag", {"GROUND"})),
+      sky_program_(build_program("sky.vert", "sky.frag")),
+      frame_block_(make_buffer()),
+      instances_(make_buffer()),
+      commands_(make_buffer()),
+      empty_array_(make_vertex_array()),
+      oval_(plan.oval.half_straight, plan.oval.radius, plan.stand_offset, 0.0f) {
+    glNamedBufferStorage(frame_block_.name(), sizeof(FrameBlock), nullptr, GL_DYNAMIC_STORAGE_BIT);
+    for (const FigureAssets& assets : figures) figures_.push_back(upload_figure(assets));
+    upload_structure(structure);
+    if (glGetError() == GL_OUT_OF_MEMORY)
+        throw std::runtime_error(
+            "OpenGL: the driver ran out of memory for the characters' poses; fewer --character files will do");
+    resize(width, height);
+}
+
+void Renderer::resize(int width, int height) {
+    width_ = width;
+    height_ = height;
+    color_ = make_renderbuffer();
+    depth_ = make_renderbuffer();
+    target_ = make_framebuffer();
+    glNamedRenderbufferStorage(color_.name(), GL_RGBA8, width, height);
+    glNamedRenderbufferStorage(depth_.name(), GL_DEPTH_COMPONENT32F, width, height);
+    glNamedFramebufferRenderbuffer(target_.name(), GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color_.name());
+    glNamedFramebufferRenderbuffer(target_.name(), GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.name());
+    if (glCheckNamedFramebufferStatus(target_.name(), GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+        throw std::runtime_error("OpenGL: the driver has no framebuffer of " + std::to_string(width) + "x" +
+                                 std::to_string(height) + " pixels");
+}
+
+void Renderer::draw(const View& view, const Selection& selection, double splat_size) {
+    upload_frame(view, splat_size);
+    upload_selection(selection);
+
+    glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
+    glViewport(0, 0, width_, height_);
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GREATER);
+    glEnable(GL_CULL_FACE);
+    glEnable(GL_PROGRAM_POINT_SIZE);
+    const GLfloat farthest = 0.0f;
+    const GLfloat black[] = {0.0f, 0.0f, 0.0f, 1.0f};
+    glClearNamedFramebufferfv(target_.name(), GL_COLOR, 0, black);
+    glClearNamedFramebufferfv(target_.name(), GL_DEPTH, 0, &farthest);
+
+    // Nearest layer first, the costliest pixels (ground, sky) last, where least of them shows.
+    draw_people();
+    draw_structure(view);
+    draw_sky();
+}
+
+void Renderer::upload_frame(const View& view, double splat_size) {
+    FrameBlock frame;
+    frame.clip_from_camera_relative = view.clip_from_camera_relative;
+    frame.camera_position = glm::vec4(glm::vec3(view.position), 0.0f);
+    frame.sun_direction = glm::vec4(sun_direction, 0.0f);
+    frame.sun_color = glm::vec4(sun_color, 0.0f);
+    frame.sky_light = glm::vec4(sky_light, 0.0f);
+    frame.ground_light = glm::vec4(ground_light, 0.0f);
+    frame.view_right = glm::vec4(view.right * view.tan_half_x, 0.0f);
+    frame.view_up = glm::vec4(view.up * view.tan_half_y, 0.0f);
+    frame.view_forward = glm::vec4(view.forward, 0.0f);
+    frame.oval = oval_;
+    frame.splat = glm::vec4(std::max(1.0f, static_cast<float>(splat_size)), view.pixels_per_metre(1.0f), 0.0f, 0.0f);
+    glNamedBufferSubData(frame_block_.name(), 0, sizeof frame, &frame);
+    glBindBufferBase(GL_UNIFORM_BUFFER, Frame_binding, frame_block_.name());
+}
+
+// Batches become indirect commands; neighbours of one character and representation become one run, drawn by one call.
+void Renderer::upload_selection(const Selection& selection) {
+    command_words_.clear();
+    runs_.clear();
+    for (const Batch& batch : selection.batches) {
+        const bool points = batch.points > 0;
+        if (runs_.empty() || runs_.back().character != batch.character || runs_.back().points != points)
+            runs_.push_back({batch.character, points, bytes(command_words_.size()), 0});
+        ++runs_.back().count;
+        const FigureObjects& figure = figures_[batch.character];
+        if (points)
+            command_words_.insert(command_words_.end(), {batch.points, batch.instance_count,
+                                                         batch.pose * figure.point_count, batch.first_instance});
+        else
+            command_words_.insert(command_words_.end(),
+                                  {static_cast<std::uint32_t>(figure.index_count), batch.instance_count, 0u,
+                                   batch.pose * figure.vertex_count, batch.first_instance});
+    }
+    // A fresh store each frame: the device may still be reading the last one.
+    glNamedBufferData(commands_.name(), static_cast<GLsizeiptr>(bytes(command_words_.size())), command_words_.data(),
+                      GL_STREAM_DRAW);
+    glNamedBufferData(instances_.name(), static_cast<GLsizeiptr>(selection.instances.size() * sizeof(Instance)),
+                      selection.instances.data(), GL_STREAM_DRAW);
+}
+
+void Renderer::draw_people() const {
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.name());
+    for (const CommandRun& run : runs_) {
+        const FigureObjects& figure = figures_[run.character];
+        glBindBufferBase(GL_UNIFORM_BUFFER, Figure_binding, figure.box.name());
+        const auto* commands = reinterpret_cast<const void*>(run.offset);
+        if (run.points) {
+            glUseProgram(point_program_.name());
+            glBindVertexArray(figure.point_array.name());
+            glMultiDrawArraysIndirect(GL_POINTS, commands, run.count,
+                                      static_cast<GLsizei>(bytes(words_per_array_draw)));
+            continue;
+        }
+        if (figure.double_sided) glDisable(GL_CULL_FACE);
+        if (figure.textured) glBindTextureUnit(texture_unit_layers, figure.layers.name());
+        glUseProgram(figure.textured ? textured_program_.name() : triangle_program_.name());
+        glBindVertexArray(figure.triangle_array.name());
+        glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, commands, run.count,
+                                    static_cast<GLsizei>(bytes(words_per_element_draw)));
+        glEnable(GL_CULL_FACE);
+    }
+}
+
+void Renderer::draw_structure(const View& view) const {
+    glBindVertexArray(structure_array_.name());
+    const auto draw_visible = [&](const Program& program, const std::vector<SectorRange>& sectors) {
+        glUseProgram(program.name());
+        for (const SectorRange& sector : sectors)
+            if (overlap(view, sector.box) != Overlap::outside)
+                glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(sector.index_count), GL_UNSIGNED_INT,
+                               reinterpret_cast<const void*>(bytes(sector.first_index)));
+    };
+    draw_visible(structure_program_, painted_);
+    draw_visible(ground_program_, ground_);
+}
+
+void Renderer::draw_sky() const {
+    glDepthFunc(GL_GEQUAL);  // its depth is the cleared one
+    glUseProgram(sky_program_.name());
+    glBindVertexArray(empty_array_.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void Renderer::present(int window_width, int window_height) const {
+    constexpr GLuint window_framebuffer = 0;
+    glBlitNamedFramebuffer(target_.name(), window_framebuffer, 0, 0, width_, height_, 0, 0, window_width, window_height,
+                           GL_COLOR_BUFFER_BIT, GL_LINEAR);
+}
+
+Image Renderer::read_image() const {
+    constexpr int channels = 3;
+    std::vector<std::uint8_t> rows(static_cast<std::size_t>(channels) * width_ * height_);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, target_.name());
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, rows.data());
+    Image image{width_, height_, std::vector<std::uint8_t>(rows.size())};
+    const std::size_t stride = static_cast<std::size_t>(channels) * width_;
+    for (int y = 0; y < height_; ++y)  // GL's rows come from the bottom
+        std::copy_n(rows.begin() + static_cast<std::ptrdiff_t>(stride * (height_ - 1 - y)), stride,
+                    image.pixels.begin() + static_cast<std::ptrdiff_t>(stride * y));
+    return image;
+}
+
+}  // namespace render

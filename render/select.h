@@ -1,0 +1,116 @@
+// What to draw, and how finely: the visible people, each with a pose and either triangles or the first n of its points,
+// gathered so that every batch reads one pose. No GL, no clock.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "motion/pose_table.h"
+#include "motion/schedule.h"
+#include "render/view.h"
+#include "scene/crowd.h"
+#include "sfsm/decision.h"
+
+namespace render {
+
+// One person as the vertex shader takes it.
+struct Instance {
+    glm::vec3 position;             // [m] feet, camera-relative
+    float scale;                    // [m / model unit]
+    std::int16_t sin_yaw, cos_yaw;  // snorm
+    scene::Palette palette;
+};
+static_assert(sizeof(Instance) == 36);
+
+// People of one character in one pose, drawn alike.
+struct Batch {
+    std::uint32_t character;
+    std::uint32_t pose;
+    std::uint32_t points;  // how many of the character's points each gets; 0 = triangles
+    std::uint32_t first_instance;
+    std::uint32_t instance_count;
+};
+
+// What selection must know of a character.
+struct Figure {
+    const scene::CastMember* member = nullptr;
+    const motion::PoseTable* poses = nullptr;
+    std::uint32_t triangle_count = 0;
+    float area = 0;  // what its points cover [model units^2]
+};
+
+struct SelectOptions {
+    float theta = motion::default_theta;  // eq. 1's constant [1/m]
+    // Points per splat-sized square of the whole surface's area. A quarter of a convex body's surface is its silhouette
+    // and half its points face away, so this is also half the number of facing points per covered square.
+    float density = 1.0f;
+    // A person becomes points only where that is the cheaper way: one point costs a CPU rasteriser about two triangles.
+    float triangles_per_point = 2.0f;
+};
+
+struct Selection {
+    std::vector<Instance> instances;
+    std::vector<Batch> batches;  // by character, then triangles before points, pose by pose
+    sfsm::Work work;
+};
+
+// Reuses its memory from frame to frame: after the first frames nothing is allocated.
+class Selector {
+public:
+    // All must outlive the selector. `figures` in the order of Crowd::character.
+    Selector(const scene::Crowd& crowd, std::span<const Figure> figures, SelectOptions options = {});
+
+    // L: the farthest view depth of a visible block [m], at least 1.
+    float visible_range(const View& view) const;
+
+    // The people to draw at `tick` under `decision`; those whose motion was due since `last_tick` are counted as moved.
+    const Selection& select(const View& view, const sfsm::Decision& decision, std::int64_t tick,
+                            std::int64_t last_tick);
+
+private:
+    struct Candidate {
+        std::uint32_t bucket;  // not_drawn, or the bucket of its batch
+        bool moved;
+        Instance instance;
+    };
+    static constexpr std::uint32_t not_drawn = ~0u;
+    // A character's buckets: level by level (0 = triangles), in each a bucket a pose.
+    struct Buckets {
+        std::uint32_t first = 0;
+        std::uint32_t levels = 0;
+        glm::vec3 center{
+            0.0f};  // of a ball around the character in every pose, on the axis it turns about [model units]
+        float radius = 0;
+    };
+    // What every person of one frame is judged by.
+    struct FrameView {
+        const View& view;
+        const sfsm::Decision& decision;
+        std::int64_t tick, last_tick;
+    };
+
+    void consider_block(std::uint32_t block, const FrameView& frame);
+    Candidate consider(std::size_t person, bool cull, const FrameView& frame) const;
+    std::uint32_t level_of(std::size_t character, float scale, float depth, const FrameView& frame) const;
+    void gather();
+    void batch(std::uint32_t character);
+
+    const scene::Crowd& crowd_;
+    std::vector<Figure> figures_;
+    SelectOptions options_;
+    std::vector<Buckets> buckets_;  // per character
+    std::vector<std::uint32_t> visible_blocks_;
+    std::vector<bool> block_inside_;           // per visible block: no need to cull its people one by one
+    std::vector<Candidate> candidates_;        // one a person; only those of visible blocks are of this frame
+    std::vector<std::uint32_t> bucket_begin_;  // per bucket, then the total
+    Selection selection_;
+};
+
+// The numbers of points that are drawn: powers of two and their halfway marks. Level 0 stands
+// for triangles.
+std::uint32_t level_points(std::uint32_t level);  // 1, 2, 3, 4, 6, 8, 12, 16, 24 ... for levels 1 to 32
+// The lowest level with at least `points` points; 33 if that is beyond level 32.
+std::uint32_t level_for(float points);
+
+}  // namespace render

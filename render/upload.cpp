@@ -1,0 +1,164 @@
+// What the renderer puts on the device once: characters in all their poses, and the structure.
+#include <cmath>
+#include <cstddef>
+#include <glm/gtc/packing.hpp>
+#include <limits>
+#include <stdexcept>
+
+#include "render/frame.h"
+#include "render/texture_array.h"
+#include "shaders/layout.h"
+
+namespace render {
+
+namespace {
+
+// One vertex or point in one pose with its looks beside it: the base vertex of a draw shifts all attributes alike, so
+// what doesn't change with the pose is repeated for each.
+struct BakedVertex {
+    motion::PosedVertex posed;
+    std::uint8_t red, green, blue;  // sRGB
+    std::uint8_t look;
+    std::uint32_t uv;  // half x 2
+};
+static_assert(sizeof(BakedVertex) == 16);
+static_assert(offsetof(BakedVertex, red) == 8 && offsetof(BakedVertex, look) == 11 && offsetof(BakedVertex, uv) == 12);
+static_assert(offsetof(motion::PosedVertex, normal_u) == 6);
+
+constexpr GLuint vertex_binding = 0;
+constexpr GLuint instance_binding = 1;
+
+template <typename T>
+Buffer upload(const std::vector<T>& data) {
+    Buffer buffer = make_buffer();
+    glNamedBufferStorage(buffer.name(), static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(), 0);
+    return buffer;
+}
+
+std::uint8_t look_of(motion::Tint tint, std::uint8_t layer) {
+    return static_cast<std::uint8_t>(static_cast<unsigned>(tint) | (static_cast<unsigned>(layer) << look_tint_bits));
+}
+
+// The poses of `table` with the looks of each vertex beside them.
+std::vector<BakedVertex> with_looks(const std::vector<motion::PosedVertex>& posed,
+                                    const std::vector<BakedVertex>& looks) {
+    std::vector<BakedVertex> baked(posed.size());
+    for (std::size_t i = 0; i < posed.size(); ++i) {
+        baked[i] = looks[i % looks.size()];
+        baked[i].posed = posed[i];
+    }
+    return baked;
+}
+
+std::vector<BakedVertex> vertex_looks(const motion::Mesh& mesh) {
+    std::vector<BakedVertex> looks(mesh.vertex_count());
+    for (std::size_t v = 0; v < looks.size(); ++v) {
+        const std::uint8_t layer = mesh.texture_ids[v] == motion::no_texture ? no_layer : mesh.texture_ids[v];
+        looks[v] = {{},
+                    mesh.colors[v].r,
+                    mesh.colors[v].g,
+                    mesh.colors[v].b,
+                    look_of(mesh.tints[v], layer),
+                    glm::packHalf2x16(mesh.uvs[v])};
+    }
+    return looks;
+}
+
+std::vector<BakedVertex> point_looks(const pointsample::PointModel& model) {
+    std::vector<BakedVertex> looks(model.size());
+    for (std::size_t p = 0; p < looks.size(); ++p)
+        looks[p] = {{}, model.colors[p].r, model.colors[p].g, model.colors[p].b, look_of(model.tints[p], no_layer), 0};
+    return looks;
+}
+
+void add_float(GLuint array, int attribute, int size, GLenum type, bool normalized, std::size_t offset,
+               GLuint binding) {
+    const auto index = static_cast<GLuint>(attribute);
+    glEnableVertexArrayAttrib(array, index);
+    glVertexArrayAttribFormat(array, index, size, type, normalized, static_cast<GLuint>(offset));
+    glVertexArrayAttribBinding(array, index, binding);
+}
+
+void add_integer(GLuint array, int attribute, int size, GLenum type, std::size_t offset, GLuint binding) {
+    const auto index = static_cast<GLuint>(attribute);
+    glEnableVertexArrayAttrib(array, index);
+    glVertexArrayAttribIFormat(array, index, size, type, static_cast<GLuint>(offset));
+    glVertexArrayAttribBinding(array, index, binding);
+}
+
+// Reads people: `vertices` a pose at a time, `instances` a person at a time.
+VertexArray make_person_array(const Buffer& vertices, const Buffer& instances, bool textured) {
+    VertexArray array = make_vertex_array();
+    const GLuint a = array.name();
+    glVertexArrayVertexBuffer(a, vertex_binding, vertices.name(), 0, sizeof(BakedVertex));
+    glVertexArrayVertexBuffer(a, instance_binding, instances.name(), 0, sizeof(Instance));
+    glVertexArrayBindingDivisor(a, instance_binding, 1);
+    add_float(a, attribute_position, 3, GL_UNSIGNED_SHORT, true, 0, vertex_binding);
+    add_float(a, attribute_normal, 2, GL_BYTE, true, offsetof(motion::PosedVertex, normal_u), vertex_binding);
+    add_float(a, attribute_color, 3, GL_UNSIGNED_BYTE, true, offsetof(BakedVertex, red), vertex_binding);
+    add_integer(a, attribute_look, 1, GL_UNSIGNED_BYTE, offsetof(BakedVertex, look), vertex_binding);
+    if (textured) add_float(a, attribute_uv, 2, GL_HALF_FLOAT, false, offsetof(BakedVertex, uv), vertex_binding);
+    add_float(a, attribute_placement, 4, GL_FLOAT, false, offsetof(Instance, position), instance_binding);
+    add_float(a, attribute_turn, 2, GL_SHORT, true, offsetof(Instance, sin_yaw), instance_binding);
+    add_integer(a, attribute_palette, 4, GL_UNSIGNED_INT, offsetof(Instance, palette), instance_binding);
+    return array;
+}
+
+}  // namespace
+
+Renderer::FigureObjects Renderer::upload_figure(const FigureAssets& assets) const {
+    const motion::Mesh& mesh = *assets.mesh;
+    FigureObjects figure;
+    figure.textured = !mesh.textures.empty();
+    figure.double_sided = mesh.double_sided;
+    if (figure.textured) figure.layers = make_texture_array(mesh.textures);
+    figure.vertices = upload(with_looks(assets.poses->vertices, vertex_looks(mesh)));
+    figure.indices = upload(mesh.indices);
+    figure.index_count = static_cast<GLsizei>(mesh.indices.size());
+    figure.vertex_count = static_cast<GLuint>(mesh.vertex_count());
+    figure.triangle_array = make_person_array(figure.vertices, instances_, figure.textured);
+    glVertexArrayElementBuffer(figure.triangle_array.name(), figure.indices.name());
+    if (assets.poses->point_count > 0) {
+        figure.points = upload(with_looks(assets.poses->points, point_looks(*assets.points)));
+        figure.point_count = static_cast<GLuint>(assets.poses->point_count);
+        figure.point_array = make_person_array(figure.points, instances_, false);
+    }
+    const motion::Bounds& box = assets.poses->box;
+    const float silhouette = 0.25f * assets.poses->area;  // a quarter of the surface, as of any convex body
+    const FigureBlock block{glm::vec4(box.min, figure.double_sided ? 1.0f : 0.0f),
+                            glm::vec4(box.size(), std::sqrt(silhouette))};
+    figure.box = make_buffer();
+    glNamedBufferStorage(figure.box.name(), sizeof block, &block, 0);
+    return figure;
+}
+
+// Painted triangles and ground have programs of their own, so each sector's indices are parted by surface.
+void Renderer::upload_structure(const scene::StaticMesh& structure) {
+    std::vector<std::uint32_t> indices;
+    indices.reserve(structure.indices.size());
+    for (const scene::Surface surface : {scene::Surface::painted, scene::Surface::ground}) {
+        std::vector<SectorRange>& ranges = surface == scene::Surface::painted ? painted_ : ground_;
+        for (const scene::StaticSector& sector : structure.sectors) {
+            const auto first = static_cast<std::uint32_t>(indices.size());
+            for (std::uint32_t i = sector.first_index; i < sector.first_index + sector.index_count; i += 3)
+                if (structure.vertices[structure.indices[i]].color.a == static_cast<std::uint8_t>(surface))
+                    indices.insert(indices.end(),
+                                   {structure.indices[i], structure.indices[i + 1], structure.indices[i + 2]});
+            const auto count = static_cast<std::uint32_t>(indices.size()) - first;
+            if (count > 0) ranges.push_back({sector.box, first, count});
+        }
+    }
+    structure_vertices_ = upload(structure.vertices);
+    structure_indices_ = upload(indices);
+    structure_array_ = make_vertex_array();
+    const GLuint a = structure_array_.name();
+    glVertexArrayVertexBuffer(a, vertex_binding, structure_vertices_.name(), 0, sizeof(scene::StaticVertex));
+    glVertexArrayElementBuffer(a, structure_indices_.name());
+    add_float(a, attribute_static_position, 3, GL_FLOAT, false, offsetof(scene::StaticVertex, position),
+              vertex_binding);
+    add_float(a, attribute_static_normal, 3, GL_FLOAT, false, offsetof(scene::StaticVertex, normal), vertex_binding);
+    add_float(a, attribute_static_color, 4, GL_UNSIGNED_BYTE, true, offsetof(scene::StaticVertex, color),
+              vertex_binding);
+}
+
+}  // namespace render

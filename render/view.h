@@ -1,0 +1,41 @@
+// A camera as the renderer uses it. Distances are subtracted in double once, here; after that everything is float32
+// relative to the camera.
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+
+#include "motion/pose.h"
+#include "scene/camera_path.h"
+
+namespace render {
+
+struct View {
+    int width = 0, height = 0;                                 // [px]
+    glm::dvec3 position{0.0};                                  // [m] world
+    glm::vec3 right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1};  // world, orthonormal
+    float tan_half_x = 1, tan_half_y = 1;
+    glm::mat4 clip_from_camera_relative{1.0f};  // reversed depth: near plane 1, infinity 0
+    std::array<glm::vec4, 5> planes;  // left, right, bottom, top, near: inward unit normal, offset; camera-relative
+
+    glm::vec3 relative(glm::vec3 world) const { return glm::vec3(glm::dvec3(world) - position); }
+    float depth(glm::vec3 relative_position) const { return glm::dot(forward, relative_position); }  // [m]
+    // Pixels that one metre across the view covers at a depth [m] > 0.
+    float pixels_per_metre(float depth_m) const { return 0.5f * static_cast<float>(height) / (tan_half_y * depth_m); }
+};
+
+inline constexpr float near_plane = 0.1f;  // [m]
+
+// `pose.target` straight above or below `pose.position` is fine. width, height > 0.
+View make_view(const scene::CameraPose& pose, int width, int height);
+
+enum class Overlap { outside, partly, inside };
+
+// Of a world box / a camera-relative sphere with the view's frustum. Conservative: never says outside of what shows.
+Overlap overlap(const View& view, const motion::Bounds& world_box);
+bool sphere_visible(const View& view, glm::vec3 relative_center, float radius);
+
+// The farthest view depth [m] of any corner of a world box.
+float farthest_depth(const View& view, const motion::Bounds& world_box);
+
+}  // namespace render

@@ -1,0 +1,50 @@
+// A window with an OpenGL 4.5 core context, and what its user does in it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+struct GLFWwindow;
+
+namespace render {
+
+// Single presses, in the order they came.
+enum class Command { preset_1, preset_2, preset_3, preset_4, preset_5, raise_target, lower_target, pause, screenshot };
+
+// Since the last poll.
+struct Input {
+    float forward = 0, right = 0, up = 0;  // held keys, each in [-1, 1]
+    bool hurry = false;                    // shift
+    double look_x = 0, look_y = 0;         // [px] dragged to the right, dragged down
+    std::vector<Command> commands;
+};
+
+class Window {
+public:
+    // Makes its context current. Throws std::runtime_error saying what GLFW found.
+    Window(const std::string& title, int width, int height);
+    ~Window();
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+
+    // Whether a window can be had at all on this machine.
+    static bool display_available();
+
+    Input poll();
+    bool closed() const;
+    int width() const { return width_; }  // [px] of its framebuffer; 0 while minimised
+    int height() const { return height_; }
+    void set_title(const std::string& title);
+    void swap();
+
+private:
+    void watch_keys();
+
+    GLFWwindow* window_ = nullptr;
+    int width_ = 0, height_ = 0;
+    double cursor_x_ = 0, cursor_y_ = 0;
+    bool dragging_ = false;
+    std::vector<Command> commands_;
+};
+
+}  // namespace render

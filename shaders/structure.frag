@@ -1,0 +1,77 @@
+// Structure: the vertices' colour. GROUND: grass, markings, track and paving from the place alone, each line faded by
+// how many of its widths a pixel covers, so that none of it shimmers when it is far.
+out vec4 color;
+
+#ifndef GROUND
+flat in vec3 surface_color;
+
+void main() { color = vec4(surface_color, 1.0); }
+#else
+in vec2 ground;
+
+const vec2 pitch_half = vec2(52.5, 34.0);  // [m] 105 x 68, the standard pitch
+const float line_half_width = 0.06;        // [m]
+const float lane_width = 1.22;             // [m]
+const float lane_count = 8.0;
+
+float pixel;  // [m] one pixel's footprint here
+
+// Coverage in [0, 1] of a line of the given half width at signed distance d [m].
+float line(float d, float half_width) {
+    float w = max(half_width, 0.5 * pixel);
+    return clamp((w - abs(d)) / pixel + 0.5, 0.0, 1.0) * half_width / w;
+}
+float inside(float d) { return clamp(0.5 - d / pixel, 0.0, 1.0); }
+float box(vec2 p, vec2 half_size) {
+    vec2 q = abs(p) - half_size;
+    return max(q.x, q.y);
+}
+
+float markings(vec2 p) {
+    vec2 m = vec2(abs(p.x), p.y);  // both halves are alike
+    float on_pitch = inside(box(p, pitch_half) - line_half_width);
+    float marks = line(box(p, pitch_half), line_half_width);
+    marks = max(marks, line(p.x, line_half_width));
+    marks = max(marks, line(length(p) - 9.15, line_half_width));
+    marks = max(marks, line(box(m - vec2(pitch_half.x - 8.25, 0.0), vec2(8.25, 20.16)), line_half_width));
+    marks = max(marks, line(box(m - vec2(pitch_half.x - 2.75, 0.0), vec2(2.75, 9.16)), line_half_width));
+    float arc = line(length(m - vec2(pitch_half.x - 11.0, 0.0)) - 9.15, line_half_width);
+    marks = max(marks, m.x < pitch_half.x - 16.5 ? arc : 0.0);
+    marks = max(marks, inside(length(m - vec2(pitch_half.x - 11.0, 0.0)) - 0.12));
+    marks = max(marks, inside(length(p) - 0.12));
+    return marks * on_pitch;
+}
+
+vec3 grass(vec2 p) {
+    const float stripe = 5.25;  // [m] twenty mown stripes on a pitch
+    float mown = clamp(0.5 + sin(p.x * 3.14159265 / stripe) / max(pixel, 0.05), 0.0, 1.0);
+    mown = mix(mown, 0.5, clamp(pixel / stripe, 0.0, 1.0));
+    return mix(vec3(0.050, 0.150, 0.030), vec3(0.068, 0.190, 0.040), mown);
+}
+
+vec3 paving(vec2 p) {
+    const float slab = 8.0;  // [m]
+    vec2 joint = abs(fract(p / slab + 0.5) - 0.5) * slab;
+    float joints = max(line(joint.x, 0.05), line(joint.y, 0.05));
+    return mix(vec3(0.26, 0.25, 0.235), vec3(0.19, 0.185, 0.18), joints);
+}
+
+void main() {
+    vec2 footprint = fwidth(ground);
+    pixel = max(max(footprint.x, footprint.y), 1e-4);
+    vec2 beyond = vec2(max(abs(ground.x) - Frame.oval.x, 0.0), ground.y);
+    float offset = length(beyond) - Frame.oval.y;  // [m] outward from the track's inner line
+
+    vec3 surface = mix(grass(ground), vec3(0.80), markings(ground));
+    float track = inside(-offset) * inside(offset - lane_count * lane_width);
+    float lane = offset - lane_width * round(offset / lane_width);
+    vec3 tartan = mix(vec3(0.32, 0.075, 0.045), vec3(0.75), line(lane, 0.025));
+    float finish = line(ground.x - Frame.oval.x, 0.025) * float(ground.y > 0.0);
+    surface = mix(surface, mix(tartan, vec3(0.75), finish), track);
+    float apron = inside(lane_count * lane_width - offset);
+    surface = mix(surface, vec3(0.10, 0.17, 0.20), apron);
+    surface = mix(surface, paving(ground), inside(Frame.oval.z - offset));
+    vec3 light = Frame.sky_light.rgb + Frame.sun_color.rgb * Frame.sun_direction.y;
+    color = vec4(sqrt(surface * light), 1.0);
+}
+#endif

@@ -1,0 +1,24 @@
+// The stadium itself: world positions, lit per vertex; the ground is painted per fragment.
+layout(location = attribute_static_position) in vec3 world_position;
+layout(location = attribute_static_normal) in vec3 normal;
+layout(location = attribute_static_color) in vec4 vertex_color;
+
+#ifdef GROUND
+out vec2 ground;  // world x, z [m]
+#else
+flat out vec3 surface_color;
+#endif
+
+vec3 lit(vec3 n) {
+    vec3 surroundings = mix(Frame.ground_light.rgb, Frame.sky_light.rgb, 0.5 + 0.5 * n.y);
+    return surroundings + Frame.sun_color.rgb * max(dot(n, Frame.sun_direction.xyz), 0.0);
+}
+
+void main() {
+    gl_Position = Frame.clip_from_camera_relative * vec4(world_position - Frame.camera_position.xyz, 1.0);
+#ifdef GROUND
+    ground = world_position.xz;
+#else
+    surface_color = sqrt(vertex_color.rgb * vertex_color.rgb * lit(normal));
+#endif
+}
