@@ -1,0 +1,47 @@
+#include "pointsample/srgb.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace pointsample {
+namespace {
+
+float decode(double code) {
+    return static_cast<float>(code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4));
+}
+
+struct Tables {
+    std::array<float, 256> linear;
+    std::array<float, 255> border;  // between code i and i + 1: half-way in code
+    Tables() {
+        for (int i = 0; i < 256; ++i) linear[static_cast<std::size_t>(i)] = decode(i / 255.0);
+        for (int i = 0; i < 255; ++i) border[static_cast<std::size_t>(i)] = decode((i + 0.5) / 255.0);
+    }
+};
+
+const Tables& tables() {
+    static const Tables tables;
+    return tables;
+}
+
+}  // namespace
+
+float linear_of_srgb(std::uint8_t byte) {
+    return tables().linear[byte];
+}
+
+std::uint8_t srgb_of_linear(float linear) {
+    if (!(linear > 0.0f)) return 0;
+    const auto& border = tables().border;
+    return static_cast<std::uint8_t>(std::upper_bound(border.begin(), border.end(), linear) - border.begin());
+}
+
+glm::u8vec4 multiply_srgb(glm::u8vec4 a, glm::u8vec4 b) {
+    glm::u8vec4 out;
+    for (int i = 0; i < 3; ++i) out[i] = srgb_of_linear(linear_of_srgb(a[i]) * linear_of_srgb(b[i]));
+    out.a = static_cast<std::uint8_t>((a.a * b.a + 127) / 255);
+    return out;
+}
+
+}  // namespace pointsample
