@@ -36,18 +36,12 @@ const Spoke& aisle_towards(const StadiumPlan& plan, glm::vec2 direction) {
     });
 }
 
-// Half the length and width of a rectangle that holds everybody.
-glm::dvec2 half_extent(const StadiumPlan& plan) {
-    const double width = plan.oval.radius + std::max(plan.outer_offset, plan.crowd_offset);
-    return {plan.oval.half_straight + width, width};
-}
-
 CameraPose still(const StadiumPlan& plan) {
     constexpr double share = 0.85;  // of the rows are below
     constexpr double eye = 1.9;     // [m] above the aisle: over the heads of who sits in front
     const Row& row = plan.rows[static_cast<std::size_t>(share * static_cast<double>(plan.rows.size() - 1))];
     const glm::vec2 xz = aisle_towards(plan, {-0.62f, 0.78f}).at(row.offset + row_depth / 2);
-    return {{xz.x, row.floor + eye, xz.y}, {6.0, 0.0, -8.0}, degrees(58)};
+    return {{xz.x, row.floor + eye, xz.y}, {-5.0, 0.0, 12.0}, degrees(56)};
 }
 
 CameraPose close(const StadiumPlan& plan) {
@@ -58,23 +52,35 @@ CameraPose close(const StadiumPlan& plan) {
 
 CameraPose medium(const StadiumPlan& plan) {
     const Row& middle = plan.rows[plan.rows.size() / 2];
-    return {beside_straight(plan, -12.0, -18.0, 3.6), beside_straight(plan, 6.0, middle.offset, middle.floor * 0.62),
-            degrees(48)};
+    return {beside_straight(plan, -12.0, -18.0, 3.6), beside_straight(plan, 4.0, middle.offset, middle.floor * 0.8),
+            degrees(42)};
 }
 
-// Far enough for the whole of a rectangle at the given elevation: its corners' sphere, a little cropped.
+// Looks at the centre spot from so far that everybody and the rim are in a picture of 16:9.
 CameraPose remote_from(const StadiumPlan& plan, double azimuth, double elevation) {
-    constexpr double fov = degrees(42);
-    const glm::dvec2 extent = half_extent(plan);
-    constexpr double squeeze = 0.72;  // frames are wider than high, and so is the stadium
-    const double distance = squeeze * glm::length(extent) / std::tan(fov / 2);
-    const glm::dvec3 direction(std::cos(elevation) * std::cos(azimuth), std::sin(elevation),
-                               std::cos(elevation) * std::sin(azimuth));
-    return {distance * direction, {0.0, 0.0, 0.0}, fov};
+    constexpr double fov = degrees(42), aspect = 16.0 / 9.0, margin = 1.03;
+    constexpr int samples = 64;  // of the outlines of crowd and rim
+    const glm::dvec3 back(std::cos(elevation) * std::cos(azimuth), std::sin(elevation),
+                          std::cos(elevation) * std::sin(azimuth));
+    const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), back)), up = glm::cross(back, right);
+    const double slope = std::tan(fov / 2);
+    double distance = 0;
+    const auto include = [&](float arc, float offset, float height) {
+        const glm::vec2 xz = plan.oval.position(arc, offset);
+        const glm::dvec3 point(xz.x, height, xz.y);
+        const double off_axis = std::max(std::abs(glm::dot(point, right)) / aspect, std::abs(glm::dot(point, up)));
+        distance = std::max(distance, glm::dot(point, back) + margin * off_axis / slope);
+    };
+    for (int i = 0; i < samples; ++i) {
+        const float share = static_cast<float>(i) / samples;
+        include(share * plan.oval.length(plan.crowd_offset), plan.crowd_offset, 0);
+        include(share * plan.oval.length(plan.outer_offset), plan.outer_offset, plan.rim_height);
+    }
+    return {distance * back, {0.0, 0.0, 0.0}, fov};
 }
 
 CameraPose remote(const StadiumPlan& plan) {
-    return remote_from(plan, degrees(62), degrees(38));
+    return remote_from(plan, degrees(62), degrees(42));
 }
 
 // From outside over the rim, down to the infield, along the front row, up over a bend, and out again.
@@ -87,7 +93,7 @@ CameraPath roam(const StadiumPlan& plan) {
     const auto add = [&](double time, glm::dvec3 position, glm::dvec3 target, double fov) {
         path.keys.push_back({time, {position, target, degrees(fov)}});
     };
-    const CameraPose start = remote_from(plan, degrees(62), degrees(38));
+    const CameraPose start = remote_from(plan, degrees(62), degrees(42));
     add(0, start.position, start.target, 42);
     add(8, in_bend(plan, 1, degrees(60), plan.outer_offset, over_rim), {-20, 0, 0}, 48);
     add(14, {40, 14, 16}, {-40, 6, 30}, 50);

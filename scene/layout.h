@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 #include <numbers>
 
+#include "scene/crowd.h"
 #include "scene/stadium.h"
 
 namespace scene {
@@ -26,12 +27,13 @@ inline constexpr float parapet_height = 0.45f;  // [m] above the walkway behind 
 inline constexpr float parapet_depth = 0.2f;    // [m]
 inline constexpr float row_depth = 0.8f;        // [m] tread
 inline constexpr float hips_depth = 0.58f;  // [m] from the tread's front edge: knees reach 0.5 m ahead and stay on it
-inline constexpr float stander_depth = 0.18f;    // [m] the same for who stands in front of the seat
-inline constexpr float seat_pitch = 0.52f;       // [m] between neighbours
-inline constexpr float aisle_width = 1.2f;       // [m]
-inline constexpr float concourse_depth = 2.4f;   // [m] walkway between the tiers
-inline constexpr float concourse_height = 2.6f;  // [m] from that walkway to the first row above it
-inline constexpr float back_walkway = 1.6f;      // [m] from the last tread's back to the outer wall
+inline constexpr float stander_depth = 0.18f;      // [m] the same for who stands in front of the seat
+inline constexpr float seat_pitch = 0.52f;         // [m] between neighbours
+inline constexpr float aisle_width = 1.2f;         // [m]
+inline constexpr float concourse_depth = 2.4f;     // [m] walkway between the tiers
+inline constexpr float concourse_height = 2.6f;    // [m] from that walkway to the first row above it
+inline constexpr float rim_above_last_row = 1.4f;  // [m] the outer wall shields the last row's back
+inline constexpr float back_walkway = 1.6f;        // [m] from the last tread's back to the outer wall
 
 // Masts of the floodlights, on the plaza.
 inline constexpr int floodlight_count = 4;
@@ -44,6 +46,10 @@ inline constexpr float standing_jitter = 0.15f;  // [m] each way and axis: neigh
 inline constexpr float standing_share = 0.8f;    // of the grid's places taken, on average
 inline constexpr float infield_margin = 1.5f;    // [m] inside the track's inner line
 inline constexpr float plaza_margin = 2.5f;      // [m] outside the outer wall
+
+inline bool is_athlete(Role role) {
+    return role == Role::walker || role == Role::runner;
+}
 
 // One in a hundred is an athlete, as long as the track has room to run.
 inline std::int64_t athlete_count(std::int64_t people) {

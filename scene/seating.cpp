@@ -12,14 +12,13 @@ namespace {
 
 constexpr int min_rows = 8, max_rows = 60;
 constexpr int max_rows_in_one_tier = 18;
-constexpr float lower_tier_share = 0.45f;   // of the rows, when there are two tiers
-constexpr int min_rows_under_roof = 14;     // smaller stadiums have a rim
-constexpr float roofed_share = 0.38f;       // of the stand's depth
-constexpr float roof_clearance = 5.5f;      // [m] from the last row to the roof's outer edge
-constexpr float roof_slope = 0.08f;         // rising inward
-constexpr float rim_above_last_row = 1.5f;  // [m] the outer wall shields the last row's back
-constexpr float section_length = 12.0f;     // [m] about 20 seats between aisles, halfway up
-constexpr float filled_share = 0.975f;      // of the seats at most, by the people planned for
+constexpr float lower_tier_share = 0.45f;  // of the rows, when there are two tiers
+constexpr int min_rows_under_roof = 14;    // smaller stadiums have a rim
+constexpr float roofed_share = 0.32f;      // of the stand's depth
+constexpr float roof_clearance = 5.5f;     // [m] from the last row to the roof's outer edge
+constexpr float roof_slope = 0.08f;        // rising inward
+constexpr float section_length = 12.0f;    // [m] about 20 seats between aisles, halfway up
+constexpr float filled_share = 0.975f;     // of the seats at most, by the people planned for
 
 // Sightlines: everybody sees the middle of the track over the head in front. The riser that gives a clearance C is
 // N = (R + C)(D + T) / D - R with the eye R above and D behind the focus and treads of depth T (Green Guide, 6th ed.).

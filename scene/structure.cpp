@@ -133,9 +133,13 @@ void add_front_wall(Builder& builder, std::size_t section) {
     const float top = first_floor + parapet_height;
     const float back = wall_offset + parapet_depth;
     constexpr float band_bottom = 0.15f, band_top = 1.05f;  // [m]
-    const Color advert = advert_colors[section % advert_colors.size()];
+    constexpr std::size_t panels = 2;
     builder.sweep(section, {wall_offset, 0}, {wall_offset, band_bottom}, wall_grey);
-    builder.sweep(section, {wall_offset, band_bottom}, {wall_offset, band_top}, advert);
+    for (std::size_t panel = 0; panel < panels; ++panel) {
+        const float begin = static_cast<float>(panel) / panels, end = static_cast<float>(panel + 1) / panels;
+        const Color color = advert_colors[(section * panels + panel) % advert_colors.size()];
+        builder.sweep(section, {wall_offset, band_bottom}, {wall_offset, band_top}, {begin, 0}, {end, 0}, color);
+    }
     builder.sweep(section, {wall_offset, band_top}, {wall_offset, top}, wall_grey);
     builder.sweep(section, {wall_offset, top}, {back, top}, coping);
     builder.sweep(section, {back, top}, {back, first_floor}, wall_grey);
@@ -185,13 +189,13 @@ void add_rise(Builder& builder, std::size_t section, std::size_t row) {
         builder.sweep(section, {end, here.floor}, {next.offset, next.floor}, riser_grey);
         return;
     }
-    constexpr float door = 4.2f, door_height = 2.2f;  // [m] from the spokes to the jambs
+    constexpr float door = 1.1f, door_height = 2.1f;  // [m] half the width
     const float face = next.offset - parapet_depth, top = next.floor + parapet_height;
     const float lintel = here.floor + door_height;
     builder.sweep(section, {end, here.floor}, {face, here.floor}, tread_grey);
-    builder.sweep(section, {face, here.floor}, {face, lintel}, {0, 0}, {0, door}, wall_grey);
-    builder.sweep(section, {face, here.floor}, {face, lintel}, {0, door}, {1, -door}, doorway);
-    builder.sweep(section, {face, here.floor}, {face, lintel}, {1, -door}, {1, 0}, wall_grey);
+    builder.sweep(section, {face, here.floor}, {face, lintel}, {0, 0}, {0.5f, -door}, wall_grey);
+    builder.sweep(section, {face, here.floor}, {face, lintel}, {0.5f, -door}, {0.5f, door}, doorway);
+    builder.sweep(section, {face, here.floor}, {face, lintel}, {0.5f, door}, {1, 0}, wall_grey);
     builder.sweep(section, {face, lintel}, {face, top}, seat_colors[0]);
     builder.sweep(section, {face, top}, {next.offset, top}, coping);
     builder.sweep(section, {next.offset, top}, {next.offset, next.floor}, wall_grey);
@@ -209,20 +213,44 @@ void add_rows(Builder& builder, std::size_t section) {
     }
 }
 
+// The facade: a plinth with gates, and two ribbons of glass if there is room for them.
+void add_facade(Builder& builder, std::size_t section, float top) {
+    constexpr float plinth_height = 3.4f, ribbon = 2.2f;  // [m]
+    const float outer = builder.plan.outer_offset;
+    const float plinth = std::min(plinth_height, 0.6f * top);
+    const float band = (top - plinth - 2 * ribbon) / 3;
+    float height = top;
+    const auto down_to = [&](float next, Color color) {
+        builder.sweep(section, {outer, height}, {outer, next}, color);
+        height = next;
+    };
+    if (band > ribbon / 4) {
+        for (int i = 0; i < 2; ++i) {
+            down_to(height - band, facade_light);
+            down_to(height - ribbon, section % 4 == 0 ? seat_colors[0] : facade_dark);
+        }
+    }
+    down_to(plinth, facade_light);
+    if (section % 3 != 1) {
+        down_to(0, wall_grey);
+        return;
+    }
+    constexpr float gate = 2.6f;  // [m] half the width
+    builder.sweep(section, {outer, plinth}, {outer, 0}, {0, 0}, {0.5f, -gate}, wall_grey);
+    builder.sweep(section, {outer, plinth}, {outer, 0}, {0.5f, -gate}, {0.5f, gate}, doorway);
+    builder.sweep(section, {outer, plinth}, {outer, 0}, {0.5f, gate}, {1, 0}, wall_grey);
+}
+
 // The walkway behind the last row, the wall at its back, and the facade down to the plaza.
 void add_back(Builder& builder, std::size_t section) {
     const StadiumPlan& plan = builder.plan;
     const Row& last = plan.rows.back();
-    constexpr float wall_above = 1.4f, thickness = 0.3f, plinth = 3.2f;  // [m]
-    const float inner = plan.outer_offset - thickness, outer = plan.outer_offset, top = last.floor + wall_above;
+    constexpr float thickness = 0.3f;  // [m]
+    const float inner = plan.outer_offset - thickness, top = last.floor + rim_above_last_row;
     builder.sweep(section, {last.offset + row_depth, last.floor}, {inner, last.floor}, tread_grey);
     builder.sweep(section, {inner, last.floor}, {inner, top}, wall_grey);
-    builder.sweep(section, {inner, top}, {outer, top}, coping);
-    builder.sweep(section, {outer, top}, {outer, last.floor - 1.0f}, facade_light);
-    const bool gate = section % 4 == 1;
-    builder.sweep(section, {outer, last.floor - 1.0f}, {outer, plinth},
-                  section % 2 == 0 ? facade_dark : seat_colors[0]);
-    builder.sweep(section, {outer, plinth}, {outer, 0}, gate ? doorway : facade_light);
+    builder.sweep(section, {inner, top}, {plan.outer_offset, top}, coping);
+    add_facade(builder, section, top);
 }
 
 // The canopy: top, underside, both edges.
@@ -236,6 +264,10 @@ void add_roof(Builder& builder, std::size_t section) {
     builder.sweep(section, inner_top, outer_top, roof_white);
     builder.sweep(section, outer_top, outer, roof_white);
     builder.sweep(section, outer, inner, roof_under);
+}
+
+bool has_roof(const StadiumPlan& plan) {
+    return plan.roof.inner_offset < plan.roof.outer_offset;
 }
 
 // A mast on the outer wall that holds the roof by a stay to its inner edge.
@@ -263,6 +295,24 @@ void add_floodlight(Builder& builder, int light) {
     builder.box(head, half_width * right, half_height * up, half_depth * front, lamp, steel);
 }
 
+// A video screen on the roof over the middle of each bend, facing the pitch.
+void add_screen(Builder& builder, float side) {
+    const StadiumPlan& plan = builder.plan;
+    constexpr float half_width = 8.0f, half_height = 3.0f, half_depth = 0.4f, frame = 0.4f, above_roof = 1.2f;  // [m]
+    const float x = side * (plan.oval.half_straight + plan.oval.radius + plan.roof.inner_offset + 1.5f);
+    const glm::vec3 center(x, plan.roof.inner_height + above_roof + half_height, 0);
+    const glm::vec3 right(0, 0, side), up(0, 1, 0), front(-side, 0, 0);
+    builder.box(center, half_width * right, half_height * up, half_depth * front, screen_frame, screen_frame);
+    const glm::vec3 glass = center + (half_depth + 0.05f) * front;
+    const glm::vec3 to_right = (half_width - frame) * right, to_top = (half_height - frame) * up;
+    builder.quad(glass - to_right - to_top, glass + to_right - to_top, glass + to_right + to_top,
+                 glass - to_right + to_top, screen_light);
+    for (const float post : {-0.6f, 0.6f}) {
+        const glm::vec3 head = center + post * half_width * right - half_height * up;
+        builder.column(head - (above_roof + 1.0f) * up, head, right, 0.5f, 0.5f, steel);
+    }
+}
+
 // One flat sheet, finer where cameras are, so that world x and z interpolate exactly enough to draw lines from.
 void add_ground(Builder& builder) {
     constexpr std::array lines{-2000.0f, -1000.0f, -500.0f, -250.0f, -120.0f, -80.0f,  -40.0f, 0.0f,
@@ -279,7 +329,7 @@ void add_section(Builder& builder, std::size_t section) {
     add_front_wall(builder, section);
     add_rows(builder, section);
     add_back(builder, section);
-    if (builder.plan.roof.inner_offset < builder.plan.roof.outer_offset) {
+    if (has_roof(builder.plan)) {
         add_roof(builder, section);
         if (section % 2 == 0) add_roof_mast(builder, section);
     }
@@ -300,6 +350,9 @@ StaticMesh build_structure(const StadiumPlan& plan) {
     }
     std::uint32_t first = static_cast<std::uint32_t>(builder.mesh.indices.size());
     for (int light = 0; light < floodlight_count; ++light) add_floodlight(builder, light);
+    if (has_roof(plan)) {
+        for (const float side : {-1.0f, 1.0f}) add_screen(builder, side);
+    }
     builder.close_sector(first);
     first = static_cast<std::uint32_t>(builder.mesh.indices.size());
     add_ground(builder);

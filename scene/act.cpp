@@ -1,0 +1,138 @@
+// place and act: where and how somebody is at a tick, as arithmetic on their own random bits and the tick.
+#include <algorithm>
+#include <cmath>
+
+#include "motion/schedule.h"
+#include "scene/crowd.h"
+#include "scene/layout.h"
+#include "scene/random.h"
+
+namespace scene {
+
+namespace {
+
+// What a random number is for.
+enum Salt : std::uint64_t { salt_phase = 101, salt_act, salt_mood, salt_wave };
+
+std::int64_t floor_div(std::int64_t a, std::int64_t b) {
+    return a / b - (a % b < 0 ? 1 : 0);
+}
+
+// How far around the stands somebody sits, in [0, 1) from the start of the straight at +z, evenly along straights
+// and nearly so in bends; without transcendental functions, since it is asked of everybody in every frame.
+float lap_fraction(const Oval& oval, glm::vec3 position) {
+    constexpr float typical_offset = 28.0f;  // [m] of a seat
+    const float straight = 2.0f * oval.half_straight;
+    const float half_lap = straight + pi * (oval.radius + typical_offset);
+    const bool second_half = position.x < -oval.half_straight || (position.x < oval.half_straight && position.z < 0);
+    const float x = second_half ? -position.x : position.x, z = second_half ? -position.z : position.z;
+    float arc = x + oval.half_straight;
+    if (x >= oval.half_straight) {
+        const float beyond = x - oval.half_straight;
+        const float turn = 0.5f - 0.5f * z / std::fmax(beyond + std::fabs(z), 1e-3f);
+        arc = straight + turn * (half_lap - straight);
+    }
+    const float half = 0.5f * std::clamp(arc / half_lap, 0.0f, 0x1.fffffep-1f);
+    return second_half ? 0.5f + half : half;
+}
+
+// Mexican waves. Between two of them everybody goes through periods of one clip's length at a phase of their own.
+constexpr std::int64_t wave_interval = 45 * motion::ticks_per_second;
+constexpr std::int64_t wave_lap = 20 * motion::ticks_per_second;  // once around the stadium
+constexpr std::int64_t wave_first = 6 * motion::ticks_per_second;
+constexpr float wave_share = 0.85f;       // of the spectators who take part
+constexpr std::int64_t wave_jitter = 15;  // [ticks] of reaction time
+
+// The tick at which the wave's front reaches somebody; nobody's two waves overlap.
+std::int64_t wave_start(std::int64_t wave, float lap, std::uint32_t own) {
+    return wave * wave_interval + wave_first + static_cast<std::int64_t>(lap * static_cast<float>(wave_lap)) +
+           below(hash(own, salt_wave), wave_jitter);
+}
+
+bool takes_part(std::int64_t wave, std::uint32_t own) {
+    return unit(hash(hash(own, salt_wave), static_cast<std::uint64_t>(wave))) < wave_share;
+}
+
+// Chance that somebody is excited in a period that starts at `tick`: each part of the stands has moods of its own.
+float excitement(float lap, std::int64_t tick) {
+    constexpr float parts = 20;
+    constexpr std::int64_t mood_length = 15 * motion::ticks_per_second;
+    constexpr float calmest = 0.04f, swing = 0.7f;
+    const std::uint64_t part = static_cast<std::uint64_t>(lap * parts);
+    const std::uint64_t mood = static_cast<std::uint64_t>(floor_div(tick, mood_length));
+    const float level = unit(hash(hash(salt_mood, part), mood));
+    return calmest + swing * level * level * level;  // mostly calm
+}
+
+std::uint8_t choose(const std::vector<std::uint8_t>& clips, std::uint64_t bits) {
+    return clips[below(bits, static_cast<std::uint32_t>(clips.size()))];
+}
+
+std::int64_t length_of(const motion::PoseTable& poses, std::uint8_t clip) {
+    return poses.clips[clip].ticks();
+}
+
+// Clips follow one another only if they take equally long.
+bool acts_alternate(const Acts& acts, const motion::PoseTable& poses) {
+    if (acts.excited.empty()) return false;
+    const std::int64_t length = length_of(poses, acts.calm.front());
+    const auto same = [&](std::uint8_t clip) { return length_of(poses, clip) == length; };
+    return std::all_of(acts.calm.begin(), acts.calm.end(), same) &&
+           std::all_of(acts.excited.begin(), acts.excited.end(), same);
+}
+
+// One act for ever, at a phase of one's own.
+Action keep_acting(const Acts& acts, const motion::PoseTable& poses, std::uint32_t own, std::int64_t tick) {
+    constexpr float excited_share = 0.25f;
+    const std::uint64_t bits = hash(own, salt_act);
+    const bool excited = !acts.excited.empty() && unit(bits) < excited_share;
+    const std::uint8_t clip = choose(excited ? acts.excited : acts.calm, mix(bits));
+    const std::int64_t length = length_of(poses, clip);
+    const std::int64_t time = tick + below(hash(own, salt_phase), static_cast<std::uint32_t>(length));
+    return {clip, time - floor_div(time, length) * length};
+}
+
+// An act a period. The clips begin and end in one pose, so whoever waits between periods holds it.
+Action alternate(const Acts& acts, const motion::PoseTable& poses, std::uint32_t own, float lap, bool waves,
+                 std::int64_t tick) {
+    const std::int64_t length = length_of(poses, acts.calm.front());
+    const std::int64_t phase = below(hash(own, salt_phase), static_cast<std::uint32_t>(length));
+    const std::int64_t period = floor_div(tick + phase, length);
+    const std::int64_t start = period * length - phase;
+    if (waves && 3 * length < wave_interval) {
+        const std::int64_t wave = floor_div(tick - wave_start(0, lap, own), wave_interval);
+        const std::int64_t last = wave_start(wave, lap, own), next = last + wave_interval;
+        const bool in_last = takes_part(wave, own), in_next = takes_part(wave + 1, own);
+        if (in_last && tick < last + length) return {acts.excited.front(), tick - last};
+        if ((in_last && start < last + length) || (in_next && start + length > next)) return {acts.calm.front(), 0};
+    }
+    const std::uint64_t bits = hash(hash(own, salt_act), static_cast<std::uint64_t>(period));
+    const bool excited = unit(bits) < excitement(lap, start);
+    return {choose(excited ? acts.excited : acts.calm, mix(bits)), tick - start};
+}
+
+}  // namespace
+
+Placement place(const Crowd& crowd, std::size_t person, const CastMember& member, std::int64_t tick) {
+    const glm::vec3 at = crowd.position[person];
+    const Role role = crowd.role[person];
+    if (!is_athlete(role)) return {at, crowd.yaw[person]};
+    constexpr double reference_height = 1.75;  // [m] that gait speeds are given at
+    const double speed = static_cast<double>(member.gait_speed[static_cast<std::size_t>(role)]) *
+                         static_cast<double>(crowd.height[person]) / reference_height;
+    const double run = static_cast<double>(at.z) + speed * static_cast<double>(tick) / motion::ticks_per_second;
+    const float arc = static_cast<float>(std::fmod(run, static_cast<double>(crowd.oval.length(at.x))));
+    const glm::vec2 xz = crowd.oval.position(arc, at.x), ahead = crowd.oval.tangent(arc, at.x);
+    return {{xz.x, 0.0f, xz.y}, std::atan2(ahead.x, ahead.y)};
+}
+
+Action act(const Crowd& crowd, std::size_t person, const CastMember& member, const motion::PoseTable& poses,
+           std::int64_t tick) {
+    const Role role = crowd.role[person];
+    const Acts& acts = member.acts[static_cast<std::size_t>(role)];
+    const std::uint32_t own = crowd.hash[person];
+    if (is_athlete(role) || !acts_alternate(acts, poses)) return keep_acting(acts, poses, own, tick);
+    return alternate(acts, poses, own, lap_fraction(crowd.oval, crowd.position[person]), role == Role::spectator, tick);
+}
+
+}  // namespace scene
