@@ -297,13 +297,18 @@ Figure cheer(double t) {
     f.head.nod += -12 * leaning - 6 * stood;
 
     Arm raised;
-    raised.wrist = {0.270, 1.880 - 0.11 * bounce, 0.400};
+    raised.wrist = {0.360, 1.880 - 0.13 * bounce, 0.400};
     raised.elbow = {1.0, -0.2, 0.35};
     raised.fingers = {0.15, 1.0, 0.05};
     raised.palm = {-0.5, 0.0, 1.0};
     raised.shrug = 24;
     const double up = plateau(t, 0.30, 1.0, 2.75, 3.60);
-    for (Arm& arm : f.arms) arm = blend(arm, raised, up);
+    // On the way the hands swing wide of the chest that rises between them.
+    const dvec3 detour = 4.0 * up * (1.0 - up) * dvec3(0.10, -0.05, 0.26);
+    for (Arm& arm : f.arms) {
+        arm = blend(arm, raised, up);
+        arm.wrist += detour;
+    }
     return f;
 }
 
@@ -313,7 +318,7 @@ Figure stand(double t) {
     Figure f;
     const double phase = 2.0 * pi * t / act_duration;
     const double shift = std::sin(phase);
-    f.pelvis = {0.012 * shift, 0.948, 0.0};
+    f.pelvis = {0.012 * shift, 0.956, 0.0};
     f.hips = {0, 0, 1.2 * shift};
     f.spine = {1, 0, -1.2 * shift};
     f.chest = {2 + 0.8 * std::cos(2.0 * phase), 1.5 * shift, 0};
@@ -397,9 +402,16 @@ dvec2 rolled_ankle(double toes_up) {
                           std::sin(angle) * pivot.x + std::cos(angle) * pivot.y);
 }
 
+// A foot moves with the ground for this share of the cycle before it lands and after it leaves, as it comes down and
+// goes up: near the ground it never slides.
+constexpr double hover = 0.03;
+constexpr double hover_height = 0.018;  // [m] at the far end
+
+// For phases in [-hover, stance + hover].
 dvec2 stance_ankle(const Gait& gait, double phase) {
-    const double toes_up = periodic(gait.toes_up, phase);
-    return dvec2(gait.landing - gait.speed * gait.cycle * phase, 0.0) + rolled_ankle(toes_up);
+    const double off_ground = std::max({-phase, phase - gait.stance, 0.0}) / hover;
+    return dvec2(gait.landing - gait.speed * gait.cycle * phase, hover_height * off_ground) +
+           rolled_ankle(periodic(gait.toes_up, phase));
 }
 
 // Cubic Hermite between `a` and `b` at x in [0, 1].
@@ -408,19 +420,20 @@ dvec2 hermite(const dvec2& a, const dvec2& tangent_a, const dvec2& b, const dvec
     return blend(a, b, h01) + x * (1.0 - x) * ((1.0 - x) * tangent_a - x * tangent_b);
 }
 
-// Leaves and meets the ground with the ground's own velocity; Catmull-Rom between.
+// Leaves and meets the ground's motion with the same velocity; Catmull-Rom between.
 dvec2 swing_ankle(const Gait& gait, double phase) {
     constexpr double step = 1e-4;
+    const double first = gait.stance + hover, last = 1.0 - hover;
     const auto count = static_cast<int>(gait.swing.size());
-    const auto knot_phase = [&](int i) { return i == 0 ? gait.stance : i > count ? 1.0 : gait.swing[i - 1].phase; };
+    const auto knot_phase = [&](int i) { return i == 0 ? first : i > count ? last : gait.swing[i - 1].phase; };
     const auto knot = [&](int i) {
-        if (i == 0) return stance_ankle(gait, gait.stance);
-        if (i > count) return stance_ankle(gait, 0.0);
+        if (i == 0) return stance_ankle(gait, first);
+        if (i > count) return stance_ankle(gait, last - 1.0);
         return dvec2(gait.swing[i - 1].forward, gait.swing[i - 1].height);
     };
     const auto tangent = [&](int i) {
-        if (i == 0) return (knot(0) - stance_ankle(gait, gait.stance - step)) / step;
-        if (i > count) return (stance_ankle(gait, step) - knot(i)) / step;
+        if (i == 0) return (knot(0) - stance_ankle(gait, first - step)) / step;
+        if (i > count) return (stance_ankle(gait, last - 1.0 + step) - knot(i)) / step;
         return (knot(i + 1) - knot(i - 1)) / (knot_phase(i + 1) - knot_phase(i - 1));
     };
     int i = 0;
@@ -431,7 +444,9 @@ dvec2 swing_ankle(const Gait& gait, double phase) {
 
 Leg gait_leg(const Gait& gait, double phase) {
     phase -= std::floor(phase);
-    const dvec2 ankle = phase < gait.stance ? stance_ankle(gait, phase) : swing_ankle(gait, phase);
+    const double since_landing = phase > 1.0 - hover ? phase - 1.0 : phase;
+    const bool with_ground = since_landing < gait.stance + hover;
+    const dvec2 ankle = with_ground ? stance_ankle(gait, since_landing) : swing_ankle(gait, phase);
     Leg leg;
     leg.ankle = {gait.step_width, ankle.y, ankle.x};
     leg.knee = {0.03, 0.0, 1.0};
