@@ -1,0 +1,194 @@
+// The stadium as a user runs it: its contract, its determinism and its answers to bad input. Small crowds and pictures:
+// what is counted and compared does not depend on their size.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "tests/command.h"
+
+namespace {
+
+const std::string small = "--headless --people 400 --size 192x108 ";
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
+}
+
+// The trace's rows, split at commas; the first is the header.
+std::vector<std::vector<std::string>> table_of(const std::string& trace) {
+    std::vector<std::vector<std::string>> table;
+    for (const std::string& line : lines_of(trace)) {
+        if (line.starts_with("#")) continue;
+        std::vector<std::string> cells;
+        std::istringstream stream(line);
+        for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+        table.push_back(cells);
+    }
+    return table;
+}
+
+std::vector<std::string> column(const std::string& trace, const std::string& name) {
+    const auto table = table_of(trace);
+    const auto found = std::find(table.at(0).begin(), table.at(0).end(), name);
+    if (found == table[0].end()) return {};
+    std::vector<std::string> cells;
+    for (std::size_t row = 1; row < table.size(); ++row)
+        cells.push_back(table[row].at(static_cast<std::size_t>(found - table[0].begin())));
+    return cells;
+}
+
+void expect_usage_error(const std::string& arguments, const std::string& named) {
+    const test::Outcome outcome = test::run("stadium", arguments);
+    EXPECT_EQ(outcome.code, 2) << arguments;
+    EXPECT_TRUE(test::one_line(outcome.err)) << outcome.err;
+    EXPECT_NE(outcome.err.find(named), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.out, "") << arguments;
+}
+
+TEST(StadiumProgram, TraceHasARowAFrameWithTheColumnsOfTheContract) {
+    const test::Outcome outcome = test::run("stadium", small + "--frames 7 --trace -");
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const auto table = table_of(outcome.out);
+    ASSERT_EQ(table.size(), 8u);
+    for (const char* name : {"frame", "target_ms", "frame_ms", "cpu_ms", "gpu_ms", "state", "motion_distance_m",
+                             "splat_px", "visible", "triangles", "points", "motion_updates"})
+        EXPECT_EQ(column(outcome.out, name).size(), 7u) << name;
+    EXPECT_EQ(column(outcome.out, "frame"), (std::vector<std::string>{"0", "1", "2", "3", "4", "5", "6"}));
+    EXPECT_TRUE(outcome.out.starts_with("#"));
+}
+
+TEST(StadiumProgram, SummaryHasTheFieldsOfTheContract) {
+    const test::Outcome outcome = test::run("stadium", small + "--frames 3 --summary -");
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    for (const char* name : {"people", "frames", "law", "seed", "device", "target_ms", "mean_ms", "p50_ms", "p99_ms",
+                             "control_rate", "within_5pct", "within_10pct", "over_5pct", "state_frames"})
+        EXPECT_NE(outcome.out.find("\"" + std::string(name) + "\":"), std::string::npos) << name;
+}
+
+TEST(StadiumProgram, SameSeedAndStateGiveTheSameBytes) {
+    const test::Directory directory;
+    for (const std::string state : {"0", "1", "2"}) {
+        for (const std::string name : {"a", "b"})
+            ASSERT_EQ(test::run("stadium", small + "--frames 3 --state " + state + " --png " + (directory / name)).code,
+                      0);
+        const std::string picture = test::read_file(directory / "a");
+        EXPECT_TRUE(picture.starts_with("\x89PNG"));
+        EXPECT_EQ(picture, test::read_file(directory / "b")) << "state " << state;
+    }
+}
+
+TEST(StadiumProgram, AnotherSeedGivesAnotherPicture) {
+    const test::Directory directory;
+    test::run("stadium", small + "--frames 1 --state 0 --seed 1 --png " + (directory / "a"));
+    test::run("stadium", small + "--frames 1 --state 0 --seed 2 --png " + (directory / "b"));
+    EXPECT_NE(test::read_file(directory / "a"), test::read_file(directory / "b"));
+}
+
+TEST(StadiumProgram, StatesDrawWhatTheyAreDefinedAs) {
+    const auto counts = [](const std::string& state, const std::string& what) {
+        const auto cells =
+            column(test::run("stadium", small + "--camera still --frames 2 --trace - --state " + state).out, what);
+        return std::stoll(cells.at(1));
+    };
+    EXPECT_EQ(counts("0", "points"), 0);
+    EXPECT_EQ(counts("1", "points"), 0);
+    EXPECT_GT(counts("2", "points"), 0);
+    EXPECT_EQ(counts("0", "triangles"), counts("1", "triangles"));
+    EXPECT_LT(counts("2", "triangles"), counts("0", "triangles"));
+    EXPECT_EQ(counts("0", "motion_updates"), counts("0", "visible"));
+}
+
+TEST(StadiumProgram, TargetChangesAtItsFrame) {
+    const test::Outcome outcome = test::run("stadium", small + "--frames 5 --target-ms 1000,300@2,95@4 --trace -");
+    EXPECT_EQ(column(outcome.out, "target_ms"), (std::vector<std::string>{"1000", "1000", "300", "300", "95"}));
+}
+
+TEST(StadiumProgram, DecisionsOfARunAreReproducedFromItsTrace) {
+    const test::Directory directory;
+    const std::string trace = directory / "t.csv";
+    ASSERT_EQ(test::run("stadium", small + "--frames 40 --target-ms 1000,2@10 --trace " + trace).code, 0);
+    const test::Outcome outcome = test::run("replay", trace + " --verify");
+    EXPECT_EQ(outcome.code, 0) << outcome.out << outcome.err;
+}
+
+TEST(StadiumProgram, EveryKthPictureIsKept) {
+    const test::Directory directory;
+    const std::string pictures = directory / "new/pictures";
+    ASSERT_EQ(test::run("stadium", small + "--frames 5 --png-every 2 --png-dir " + pictures).code, 0);
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(pictures)) names.push_back(entry.path().filename());
+    std::sort(names.begin(), names.end());
+    EXPECT_EQ(names, (std::vector<std::string>{"frame000000.png", "frame000002.png", "frame000004.png"}));
+}
+
+TEST(StadiumProgram, SaysWhatIsWrongWithItsArguments) {
+    expect_usage_error("--people 0", "--people");
+    expect_usage_error("--people 1000001", "--people");
+    expect_usage_error("--people -5", "--people");
+    expect_usage_error("--people many", "--people");
+    expect_usage_error("--target-ms nan", "--target-ms");
+    expect_usage_error("--target-ms 0", "--target-ms");
+    expect_usage_error("--target-ms 10,20@0", "--target-ms");
+    expect_usage_error("--law none", "none");
+    expect_usage_error("--state 3", "--state");
+    expect_usage_error("--camera nowhere", "--camera");
+    expect_usage_error("--size 0x100", "--size");
+    expect_usage_error("--size 100", "--size");
+    expect_usage_error("--size 100000x100000", "--size");
+    expect_usage_error("--frames 0", "--frames");
+    expect_usage_error("--seed -1", "--seed");
+    expect_usage_error("--png-every 2", "--png-dir");
+    expect_usage_error("--splat-px 3", "--state");
+    expect_usage_error("--no-such-option", "--no-such-option");
+    expect_usage_error("surplus", "surplus");
+    expect_usage_error("--trace - --summary -", "stdout");
+}
+
+TEST(StadiumProgram, SaysWhichFileItCannotReadOrWrite) {
+    const test::Directory directory;
+    const std::string damaged = directory / "damaged.glb";
+    std::ofstream(damaged) << "glTF, or so it says";
+    const std::string trace = directory / "t.csv";
+    for (const std::string arguments :
+         {"--character " + (directory / "missing.glb"), "--character " + damaged,
+          "--camera " + (directory / "missing.json"), "--trace " + (directory / "no/such/place.csv"),
+          "--png " + (directory / "no/such/place.png")}) {
+        const test::Outcome outcome = test::run("stadium", small + "--frames 1 " + arguments);
+        EXPECT_EQ(outcome.code, 1) << arguments;
+        EXPECT_TRUE(test::one_line(outcome.err)) << outcome.err;
+        EXPECT_NE(outcome.err.find(arguments.substr(arguments.rfind('/') + 1)), std::string::npos) << outcome.err;
+    }
+    EXPECT_EQ(test::run("stadium", small + "--frames 1 --character " + damaged + " --trace " + trace).code, 1);
+    EXPECT_FALSE(std::filesystem::exists(trace)) << "a failed run leaves no trace file";
+}
+
+TEST(StadiumProgram, SaysThatThereIsNoOpenGl) {
+    // Only the software rasteriser can be taken away from a test.
+    if (test::run("stadium", small + "--frames 1 --summary -").out.find("llvmpipe") == std::string::npos)
+        GTEST_SKIP() << "needs Mesa's llvmpipe as the only driver";
+    const test::Directory directory;
+    setenv("MESA_GL_VERSION_OVERRIDE", "3.3", 1);
+    const test::Outcome outcome = test::run("stadium", small + "--frames 1");
+    unsetenv("MESA_GL_VERSION_OVERRIDE");
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_TRUE(test::one_line(outcome.err)) << outcome.err;
+    EXPECT_NE(outcome.err.find("4.5"), std::string::npos) << outcome.err;
+}
+
+TEST(StadiumProgram, HelpShowsExamples) {
+    for (const std::string program : {"stadium", "replay", "pointsample"}) {
+        const test::Outcome help = test::run(program, "--help");
+        EXPECT_EQ(help.code, 0);
+        EXPECT_NE(help.out.find("Examples:"), std::string::npos) << program;
+        const test::Outcome version = test::run(program, "--version");
+        EXPECT_EQ(version.code, 0);
+        EXPECT_TRUE(version.out.starts_with(program + " 0.")) << version.out;
+    }
+}
+
+}  // namespace

@@ -1,0 +1,154 @@
+// What reaches the pixels, held against projections done here.
+#include <algorithm>
+#include <cstdlib>
+#include <set>
+
+#include "render/frame.h"
+#include "tests/render/gl_test.h"
+#include "tests/render/small_scene.h"
+
+namespace {
+
+using Picture = test::GlTest;
+
+constexpr int width = 320, height = 240;
+
+// One person, a camera in front of them, and nothing but sky behind.
+struct Portrait {
+    test::SmallScene scene{1};
+    scene::StaticMesh nothing{{{}, {}, {}}, {0, 0, 0}, {}};
+    render::Renderer renderer;
+
+    Portrait() : renderer(nothing, scene.plan, assets(), width, height) {}
+
+    std::vector<render::FigureAssets> assets() const { return {{&scene.person.mesh, &scene.poses[0], &scene.points}}; }
+    render::View view(double distance) const {
+        const scene::Placement at = scene::place(scene.crowd, 0, scene.cast[0], 0);
+        scene::CameraPose pose;
+        pose.target = glm::dvec3(at.position) + glm::dvec3(0, 0.8, 0);
+        pose.position = pose.target + glm::dvec3(std::sin(at.yaw), 0, std::cos(at.yaw)) * distance;
+        return render::make_view(pose, width, height);
+    }
+    render::Image draw(const render::View& view, const sfsm::Decision& decision) {
+        render::Selector selector(scene.crowd, scene.figures());
+        renderer.draw(view, selector.select(view, decision, 0, -1), decision.splat_size);
+        return renderer.read_image();
+    }
+    render::Image draw_nobody(const render::View& view) {
+        renderer.draw(view, {}, 0);
+        return renderer.read_image();
+    }
+};
+
+std::set<int> differing_pixels(const render::Image& a, const render::Image& b) {
+    std::set<int> pixels;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+        if (a.pixels[i] != b.pixels[i]) pixels.insert(static_cast<int>(i / 3));
+    return pixels;
+}
+
+struct Box {
+    int left = width, right = -1, top = height, bottom = -1;
+};
+
+Box box_of(const std::set<int>& pixels) {
+    Box box;
+    for (int pixel : pixels) {
+        box.left = std::min(box.left, pixel % width);
+        box.right = std::max(box.right, pixel % width);
+        box.top = std::min(box.top, pixel / width);
+        box.bottom = std::max(box.bottom, pixel / width);
+    }
+    return box;
+}
+
+// Where the posed vertices of the only person land.
+Box projected_box(const Portrait& portrait, const render::View& view) {
+    const test::SmallScene& scene = portrait.scene;
+    const motion::PoseTable& table = scene.poses[0];
+    const scene::Placement at = scene::place(scene.crowd, 0, scene.cast[0], 0);
+    const scene::Action action = scene::act(scene.crowd, 0, scene.cast[0], table, 0);
+    const int pose = table.pose_at(action.clip, action.clip_tick);
+    const float scale = scene.crowd.height[0] / table.rest_height;
+    Box box;
+    for (int vertex = 0; vertex < table.vertex_count; ++vertex) {
+        const glm::vec3 p = motion::unpack_position(table.vertices[pose * table.vertex_count + vertex], table.box);
+        const float s = std::sin(at.yaw), c = std::cos(at.yaw);
+        const glm::vec3 placed =
+            view.relative(at.position) + scale * glm::vec3(c * p.x + s * p.z, p.y, c * p.z - s * p.x);
+        const glm::vec4 clip = view.clip_from_camera_relative * glm::vec4(placed, 1.0f);
+        const auto x = static_cast<int>(std::floor(0.5f * width * (1.0f + clip.x / clip.w)));
+        const auto y = static_cast<int>(std::floor(0.5f * height * (1.0f - clip.y / clip.w)));
+        box.left = std::min(box.left, x);
+        box.right = std::max(box.right, x);
+        box.top = std::min(box.top, y);
+        box.bottom = std::max(box.bottom, y);
+    }
+    return box;
+}
+
+TEST_F(Picture, PersonStandsWhereTheirPoseProjects) {
+    Portrait portrait;
+    const render::View view = portrait.view(3.0);
+    const Box drawn = box_of(differing_pixels(portrait.draw(view, {}), portrait.draw_nobody(view)));
+    const Box expected = projected_box(portrait, view);
+    constexpr int rounding = 1;  // [px] a vertex need not cover the pixel it falls in
+    EXPECT_NEAR(drawn.left, expected.left, rounding);
+    EXPECT_NEAR(drawn.right, expected.right, rounding);
+    EXPECT_NEAR(drawn.top, expected.top, rounding);
+    EXPECT_NEAR(drawn.bottom, expected.bottom, rounding);
+}
+
+TEST_F(Picture, PointsCoverTheSilhouetteAndLittleElse) {
+    Portrait portrait;
+    const render::View view = portrait.view(12.0);  // about 35 px tall
+    const render::Image nobody = portrait.draw_nobody(view);
+    const std::set<int> triangles = differing_pixels(portrait.draw(view, {}), nobody);
+    const std::set<int> points = differing_pixels(portrait.draw(view, {sfsm::State::points, 100, 2.0}), nobody);
+    ASSERT_GT(triangles.size(), 150u);
+    std::vector<int> both;
+    std::set_intersection(triangles.begin(), triangles.end(), points.begin(), points.end(), std::back_inserter(both));
+    const double covered = static_cast<double>(both.size()) / static_cast<double>(triangles.size());
+    const double grown = static_cast<double>(points.size()) / static_cast<double>(triangles.size());
+    EXPECT_GT(covered, 0.85);  // two facing points a splat leave few holes
+    EXPECT_LT(grown, 1.6);     // a splat of 2 px sticks out by up to 1 px around an outline of thin limbs
+}
+
+TEST_F(Picture, SplatsNeverOutgrowTheirPerson) {
+    Portrait portrait;
+    const render::View view = portrait.view(60.0);  // about 7 px tall
+    const render::Image nobody = portrait.draw_nobody(view);
+    const Box person = projected_box(portrait, view);
+    const Box splats = box_of(differing_pixels(portrait.draw(view, {sfsm::State::points, 100, 32.0}), nobody));
+    ASSERT_GE(splats.right, 0);
+    const int tall = person.bottom - person.top + 1;
+    EXPECT_LE(splats.bottom - splats.top, tall + tall / 2);
+    EXPECT_LE(splats.right - splats.left, tall + tall / 2);
+}
+
+TEST_F(Picture, IsTheSameTwice) {
+    Portrait portrait;
+    const render::View view = portrait.view(5.0);
+    EXPECT_EQ(portrait.draw(view, {}).pixels, portrait.draw(view, {}).pixels);
+}
+
+TEST_F(Picture, ResizedTargetHasItsNewSize) {
+    Portrait portrait;
+    portrait.renderer.resize(64, 48);
+    const render::Image image = portrait.draw_nobody(portrait.view(3.0));
+    EXPECT_EQ(image.width, 64);
+    EXPECT_EQ(image.pixels.size(), 64u * 48u * 3u);
+    // A sky, not the cleared black.
+    EXPECT_TRUE(
+        std::all_of(image.pixels.begin(), image.pixels.begin() + 3 * 64, [](std::uint8_t v) { return v > 20; }));
+}
+
+TEST(Png, StartsWithItsSignatureAndEndsWithItsLastChunk) {
+    const render::Image image{3, 2, std::vector<std::uint8_t>(18, 77)};
+    const std::vector<std::uint8_t> bytes = render::encode_png(image);
+    ASSERT_GT(bytes.size(), 20u);
+    EXPECT_EQ(std::string(bytes.begin() + 1, bytes.begin() + 4), "PNG");
+    EXPECT_EQ(std::string(bytes.end() - 8, bytes.end() - 4), "IEND");
+}
+
+}  // namespace

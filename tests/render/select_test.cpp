@@ -1,0 +1,206 @@
+#include "render/select.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <cstring>
+#include <set>
+#include <tuple>
+
+#include "tests/render/small_scene.h"
+
+namespace {
+
+using render::Selection;
+using render::Selector;
+using sfsm::Decision;
+using sfsm::State;
+
+const test::SmallScene& small_scene() {
+    static const test::SmallScene scene(3000);
+    return scene;
+}
+
+render::View view_of(const char* preset) {
+    return render::make_view(scene::preset_path(preset, small_scene().plan).at(0.0), 640, 360);
+}
+
+Decision points_of(double splat_size, double motion_distance = 50) {
+    return {State::points, motion_distance, splat_size};
+}
+
+Selection select_once(const render::View& view, const Decision& decision, std::int64_t tick = 100) {
+    Selector selector(small_scene().crowd, small_scene().figures());
+    return selector.select(view, decision, tick, tick - 1);
+}
+
+bool same_bits(const Selection& a, const Selection& b) {
+    return a.instances.size() == b.instances.size() && a.batches.size() == b.batches.size() &&
+           std::memcmp(a.instances.data(), b.instances.data(), a.instances.size() * sizeof(render::Instance)) == 0 &&
+           std::memcmp(a.batches.data(), b.batches.data(), a.batches.size() * sizeof(render::Batch)) == 0 &&
+           a.work == b.work;
+}
+
+// Every corner of every pose's triangles of a person, projected: the slow truth about who shows.
+bool some_vertex_shows(const render::View& view, std::size_t person, std::int64_t tick) {
+    const test::SmallScene& scene = small_scene();
+    const motion::PoseTable& table = scene.poses[0];
+    const scene::Placement placement = scene::place(scene.crowd, person, scene.cast[0], tick);
+    const scene::Action action = scene::act(scene.crowd, person, scene.cast[0], table, tick);
+    const int pose = table.pose_at(action.clip, action.clip_tick);
+    const float scale = scene.crowd.height[person] / table.rest_height;
+    const float s = std::sin(placement.yaw), c = std::cos(placement.yaw);
+    for (int vertex = 0; vertex < table.vertex_count; ++vertex) {
+        const glm::vec3 p = motion::unpack_position(table.vertices[pose * table.vertex_count + vertex], table.box);
+        const glm::vec3 turned(c * p.x + s * p.z, p.y, c * p.z - s * p.x);
+        const glm::vec4 clip =
+            view.clip_from_camera_relative * glm::vec4(view.relative(placement.position) + scale * turned, 1.0f);
+        if (std::abs(clip.x) < clip.w && std::abs(clip.y) < clip.w && clip.z < clip.w) return true;
+    }
+    return false;
+}
+
+TEST(Selection, NeverDropsSomeoneWhoShows) {
+    for (const char* preset : {"still", "close", "medium", "remote"}) {
+        const render::View view = view_of(preset);
+        const Selection selection = select_once(view, {});
+        std::set<std::tuple<float, float, float>> selected;
+        for (const render::Instance& i : selection.instances)
+            selected.insert({i.position.x, i.position.y, i.position.z});
+        std::size_t showing = 0;
+        for (std::size_t person = 0; person < small_scene().crowd.size(); ++person) {
+            if (!some_vertex_shows(view, person, 100)) continue;
+            ++showing;
+            const scene::Placement placement = scene::place(small_scene().crowd, person, small_scene().cast[0], 100);
+            const glm::vec3 p = view.relative(placement.position);
+            EXPECT_TRUE(selected.contains({p.x, p.y, p.z})) << preset << ", person " << person;
+        }
+        EXPECT_GT(showing, 0u) << preset;
+        // Balls around bodies are loose, but not so loose that culling is no use.
+        EXPECT_LT(static_cast<double>(selection.instances.size()), 1.3 * static_cast<double>(showing) + 20) << preset;
+    }
+}
+
+TEST(Selection, BatchesPartitionTheInstances) {
+    for (const double splat_size : {0.0, 1.0, 4.0}) {
+        const Selection selection = select_once(view_of("still"), splat_size > 0 ? points_of(splat_size) : Decision{});
+        std::uint32_t next = 0;
+        for (const render::Batch& batch : selection.batches) {
+            EXPECT_EQ(batch.first_instance, next);
+            EXPECT_GT(batch.instance_count, 0u);
+            next += batch.instance_count;
+        }
+        EXPECT_EQ(next, selection.instances.size());
+    }
+}
+
+TEST(Selection, WorkIsTheSumOverItsBatches) {
+    const Selection selection = select_once(view_of("still"), points_of(2));
+    std::int64_t people = 0, triangles = 0, points = 0;
+    for (const render::Batch& batch : selection.batches) {
+        people += batch.instance_count;
+        points += std::int64_t{batch.points} * batch.instance_count;
+        if (batch.points == 0)
+            triangles += std::int64_t{batch.instance_count} *
+                         static_cast<std::int64_t>(small_scene().person.mesh.triangle_count());
+    }
+    EXPECT_EQ(selection.work.people, people);
+    EXPECT_EQ(selection.work.triangles, triangles);
+    EXPECT_EQ(selection.work.points, points);
+    EXPECT_GT(points, 0);
+}
+
+TEST(Selection, LargerSplatsNeverCostMore) {
+    const auto price = [](const Selection& s) {
+        return 2 * s.work.points + s.work.triangles;
+    };  // as SelectOptions has it
+    std::int64_t last = price(select_once(view_of("still"), {}));
+    for (double splat_size = 0.25; splat_size <= 32; splat_size *= 1.3) {
+        const std::int64_t now = price(select_once(view_of("still"), points_of(splat_size)));
+        EXPECT_LE(now, last) << "S = " << splat_size;
+        last = now;
+    }
+}
+
+TEST(Selection, IsTheSameOnAnyNumberOfThreads) {
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    const Selection alone = select_once(view_of("still"), points_of(2));
+    Selection together;
+    {
+        const tbb::global_control many(tbb::global_control::max_allowed_parallelism, 4);
+        together = select_once(view_of("still"), points_of(2));
+    }
+    EXPECT_TRUE(same_bits(alone, together));
+}
+
+TEST(Selection, NeedsNoFrameBeforeIt) {
+    Selector selector(small_scene().crowd, small_scene().figures());
+    for (std::int64_t tick = 90; tick < 100; ++tick)
+        selector.select(view_of("close"), points_of(3, 20), tick, tick - 1);
+    const Selection after_others = selector.select(view_of("still"), points_of(2), 100, 99);
+    EXPECT_TRUE(same_bits(after_others, select_once(view_of("still"), points_of(2))));
+}
+
+TEST(Selection, MovesEverybodyInStateZeroAndFewerTheNearerD) {
+    const Selection all = select_once(view_of("still"), {});
+    EXPECT_EQ(all.work.motion_updates, all.work.people);
+    std::int64_t last = all.work.people;
+    for (const double motion_distance : {200.0, 120.0, 60.0, 20.0, 1.0}) {
+        const std::int64_t moved =
+            select_once(view_of("still"), {State::slowed, motion_distance, 0}).work.motion_updates;
+        EXPECT_LE(moved, last) << "D = " << motion_distance;
+        last = moved;
+    }
+    EXPECT_LT(last, all.work.people / 2);
+}
+
+TEST(Selection, MovesEachPersonOnceAPeriod) {
+    // Over as many frames as the longest period everybody moves at least once, and the far ones just once.
+    const Decision decision{State::slowed, 1.0, 0};
+    Selector selector(small_scene().crowd, small_scene().figures(),
+                      {.theta = 10.0f});  // everybody at the longest period
+    std::int64_t moved = 0, people = 0;
+    for (std::int64_t tick = 100; tick < 100 + motion::max_period; ++tick) {
+        const Selection& selection = selector.select(view_of("remote"), decision, tick, tick - 1);
+        moved += selection.work.motion_updates;
+        people = selection.work.people;
+        // Staggered: no frame moves more than twice its share of the people.
+        EXPECT_LT(selection.work.motion_updates, 2 * selection.work.people / motion::max_period + 20);
+    }
+    EXPECT_EQ(moved, people);
+}
+
+TEST(Selection, NothingMovesWhileTimeStandsStill) {
+    Selector selector(small_scene().crowd, small_scene().figures());
+    EXPECT_EQ(selector.select(view_of("still"), {}, 50, 50).work.motion_updates, 0);
+}
+
+TEST(Selection, RangeReachesTheFarthestPersonInView) {
+    for (const char* preset : {"still", "close", "medium", "remote"}) {
+        const render::View view = view_of(preset);
+        Selector selector(small_scene().crowd, small_scene().figures());
+        const float range = selector.visible_range(view);
+        float farthest = 0;
+        for (const render::Instance& instance : selector.select(view, {}, 0, -1).instances)
+            farthest = std::max(farthest, view.depth(instance.position));
+        EXPECT_GE(range, farthest) << preset;
+    }
+}
+
+TEST(PointLevels, AreAboutTheSquareRootOfTwoApart) {
+    EXPECT_EQ(render::level_points(0), 0u);
+    for (std::uint32_t level = 1; level < 32; ++level) {
+        EXPECT_LT(render::level_points(level), render::level_points(level + 1));
+        EXPECT_LE(render::level_points(level + 1), 2 * render::level_points(level));
+    }
+}
+
+TEST(PointLevels, LowestLevelWithEnoughPointsIsChosen) {
+    for (float points = 1; points < 60000; points *= 1.17f) {
+        const std::uint32_t level = render::level_for(points);
+        EXPECT_GE(static_cast<float>(render::level_points(level)), points);
+        EXPECT_LT(static_cast<float>(render::level_points(level - 1)), points);
+    }
+}
+
+}  // namespace

@@ -1,0 +1,45 @@
+// A crowd small enough to be checked one by one, made as the stadium makes its own.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "motion/pose.h"
+#include "pointsample/point_model.h"
+#include "render/select.h"
+#include "scene/cast.h"
+#include "scene/crowd.h"
+#include "scene/person.h"
+#include "scene/stadium.h"
+
+namespace test {
+
+struct SmallScene {
+    motion::Character person = scene::make_person();
+    scene::StadiumPlan plan;
+    pointsample::PointModel points;
+    std::vector<scene::CastMember> cast;
+    std::vector<motion::PoseTable> poses;
+    scene::Crowd crowd;
+
+    explicit SmallScene(std::int64_t people) {
+        const scene::Casting casting = scene::cast(person);
+        motion::Pose pose;
+        motion::evaluate_rest(person, pose);
+        std::vector<glm::vec3> positions, normals;
+        motion::skin(person.mesh, pose, positions, normals);
+        pointsample::SampleOptions options;
+        options.count = person.mesh.triangle_count() / 2;
+        points = pointsample::sample(person.mesh, positions, normals, options);
+        poses.push_back(motion::bake_poses(person, casting.clips, points.surface, std::size_t{1} << 26));
+        cast.push_back(casting.member);
+        plan = scene::plan_stadium(people);
+        crowd = scene::populate(plan, people, cast, poses, 1);
+    }
+
+    std::vector<render::Figure> figures() const {
+        return {{&cast[0], &poses[0], static_cast<std::uint32_t>(person.mesh.triangle_count()), poses[0].area}};
+    }
+};
+
+}  // namespace test

@@ -1,0 +1,98 @@
+#include "render/view.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace {
+
+// Uniform in [low, high); std's distributions differ between platforms.
+double uniform(std::mt19937_64& random, double low, double high) {
+    return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+}
+
+glm::vec3 uniform_point(std::mt19937_64& random, double reach) {
+    return {uniform(random, -reach, reach), uniform(random, -reach, reach), uniform(random, -reach, reach)};
+}
+
+render::View any_view(std::mt19937_64& random) {
+    scene::CameraPose pose;
+    pose.position = uniform_point(random, 100);
+    pose.target = pose.position + glm::dvec3(uniform_point(random, 10)) + glm::dvec3(0.01);
+    pose.fov_y = uniform(random, 0.1, 2.5);
+    return render::make_view(pose, 1280, 720);
+}
+
+// Clip space as OpenGL has it with reversed depth: visible where |x|, |y| <= w and 0 <= z <= w.
+bool in_clip_volume(const render::View& view, glm::vec3 relative) {
+    const glm::vec4 clip = view.clip_from_camera_relative * glm::vec4(relative, 1.0f);
+    return std::abs(clip.x) <= clip.w && std::abs(clip.y) <= clip.w && clip.z <= clip.w && clip.z >= 0;
+}
+
+TEST(View, PlanesBoundTheClipVolume) {
+    std::mt19937_64 random(1);
+    int inside = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const render::View view = any_view(random);
+        const glm::vec3 point = uniform_point(random, 50);
+        bool within_planes = true;
+        float closest = 1e9f;
+        for (const glm::vec4& plane : view.planes) {
+            const float distance = glm::dot(glm::vec3(plane), point) + plane.w;
+            within_planes = within_planes && distance >= 0;
+            closest = std::min(closest, std::abs(distance));
+        }
+        constexpr float rounding = 1e-3f;  // [m] on a plane either answer is right
+        if (closest < rounding) continue;
+        EXPECT_EQ(within_planes, in_clip_volume(view, point));
+        inside += within_planes;
+    }
+    EXPECT_GT(inside, 500);
+}
+
+TEST(View, BoxWithAVisiblePointIsNeverOutside) {
+    std::mt19937_64 random(2);
+    for (int i = 0; i < 20000; ++i) {
+        const render::View view = any_view(random);
+        const glm::vec3 corner = uniform_point(random, 150);
+        const motion::Bounds box{corner, corner + glm::abs(uniform_point(random, 20))};
+        const glm::vec3 inside =
+            glm::mix(box.min, box.max, glm::vec3(uniform(random, 0, 1), uniform(random, 0, 1), uniform(random, 0, 1)));
+        const render::Overlap found = render::overlap(view, box);
+        const bool shows = in_clip_volume(view, view.relative(inside));
+        EXPECT_FALSE(shows && found == render::Overlap::outside);
+        EXPECT_FALSE(!shows && found == render::Overlap::inside);
+    }
+}
+
+TEST(View, PixelsPerMetreIsWhatProjectionDoes) {
+    std::mt19937_64 random(3);
+    for (int i = 0; i < 1000; ++i) {
+        const render::View view = any_view(random);
+        const auto depth = static_cast<float>(uniform(random, 1, 300));
+        const auto pixel_y = [&](glm::vec3 relative) {
+            const glm::vec4 clip = view.clip_from_camera_relative * glm::vec4(relative, 1.0f);
+            return 0.5f * static_cast<float>(view.height) * clip.y / clip.w;
+        };
+        const float metre = pixel_y(depth * view.forward + view.up) - pixel_y(depth * view.forward);
+        EXPECT_NEAR(metre, view.pixels_per_metre(depth), 1e-3f * metre);
+    }
+}
+
+TEST(View, KeepsCentimetresTwoKilometresOut) {
+    scene::CameraPose pose;
+    pose.position = {2000.004, 1.5, -2000.004};
+    const render::View view = render::make_view(pose, 100, 100);
+    EXPECT_NEAR(view.relative({2000.0f, 1.5f, -2000.0f}).x, -0.004f, 1e-4f);
+}
+
+TEST(View, LooksStraightDownWithoutLosingItsAxes) {
+    scene::CameraPose pose;
+    pose.position = {0, 50, 0};
+    pose.target = {0, 0, 0};
+    const render::View view = render::make_view(pose, 100, 100);
+    EXPECT_NEAR(glm::length(view.right), 1.0f, 1e-5f);
+    EXPECT_NEAR(glm::dot(view.right, view.forward), 0.0f, 1e-5f);
+}
+
+}  // namespace
