@@ -5,10 +5,12 @@
 
 namespace scene {
 
-// A closed humanoid of 1,000-1,300 triangles and about 20 joints, 1.75 m tall standing, feet at y = 0, facing +z,
+// A closed humanoid of just under 1,300 triangles and 19 joints, 1.75 m tall standing, feet at y = 0, facing +z,
 // with the clips "sit", "clap", "cheer", "wave" (spectators: 4 s each, all starting and ending in the same seated
-// pose, so that they can follow one another; the seat's surface is at y = seat_height, the hips over the origin), and
-// "stand" (4 s), "walk", "run" (in place; one cycle = two steps; speeds below). Tints: skin, hair, shirt, trousers.
+// pose, so that they can follow one another; the seat's surface is at y = seat_height, the hips over the origin, the
+// feet 0.37 m in front of it, which is where "cheer" stands up), and "stand" (4 s), "walk" (1 s), "run" (0.7 s; both in
+// place, one cycle = two steps, speeds below). Tints: skin, hair, shirt, trousers; shoes and eyes have their own
+// colours.
 motion::Character make_person();
 
 inline constexpr float seat_height = 0.45f;   // [m]

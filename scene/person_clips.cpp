@@ -1,7 +1,6 @@
 // What the person does: each clip is a function from time to a Figure (where hands, feet and trunk are), turned into
 // joint rotations by two-bone inverse kinematics and sampled into keys.
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <functional>
 #include <glm/gtc/quaternion.hpp>
@@ -244,7 +243,10 @@ Figure sit(double t) {
     f.pelvis.x += 0.008 * ripple(t, 0.2, 3.8, 1);
     f.spine.lean += 2 * ripple(t, 0.2, 3.8, 1);
     f.arms[1].wrist += dvec3(0.0, 0.012, -0.03) * plateau(t, 1.2, 1.7, 2.4, 2.9);
-    f.legs[0].toes_up = 9 * plateau(t, 2.3, 2.5, 2.5, 2.7) + 9 * plateau(t, 2.7, 2.9, 2.9, 3.1);
+    // The left foot taps twice, on its heel.
+    const double tap = plateau(t, 2.3, 2.5, 2.5, 2.7) + plateau(t, 2.7, 2.9, 2.9, 3.1);
+    f.legs[0].toes_up = 9 * tap;
+    f.legs[0].ankle.y += 0.007 * tap;
     return f;
 }
 
@@ -297,14 +299,14 @@ Figure cheer(double t) {
     f.head.nod += -12 * leaning - 6 * stood;
 
     Arm raised;
-    raised.wrist = {0.360, 1.880 - 0.13 * bounce, 0.400};
+    raised.wrist = {0.380, 1.910 - 0.14 * bounce, 0.400};
     raised.elbow = {1.0, -0.2, 0.35};
     raised.fingers = {0.15, 1.0, 0.05};
     raised.palm = {-0.5, 0.0, 1.0};
     raised.shrug = 24;
     const double up = plateau(t, 0.30, 1.0, 2.75, 3.60);
-    // On the way the hands swing wide of the chest that rises between them.
-    const dvec3 detour = 4.0 * up * (1.0 - up) * dvec3(0.10, -0.05, 0.26);
+    // The hands give way to the thighs that rise below them and to the chest that rises between them.
+    const dvec3 detour = dvec3(0.0, 0.06, 0.0) * leaning + dvec3(0.10, -0.05, 0.26) * 4.0 * up * (1.0 - up);
     for (Arm& arm : f.arms) {
         arm = blend(arm, raised, up);
         arm.wrist += detour;
@@ -512,9 +514,9 @@ constexpr Gait walk_gait{.speed = walk_speed,
                          .hip_turn = 5,
                          .hip_drop = 3,
                          .lean = 3,
-                         .arm_swing = 20,
-                         .arm_bias = 4,
-                         .elbow = 20,
+                         .arm_swing = 19,
+                         .arm_bias = -4,
+                         .elbow = 17,
                          .elbow_swing = 9};
 
 constexpr Key run_toes_up[] = {{0.00, 6},   {0.04, 0},   {0.12, 0},  {0.28, -62},
@@ -548,6 +550,20 @@ motion::Channel empty_channel(int joint, motion::Path path) {
     return channel;
 }
 
+// `last` are the rotations of the key before, if there is one, and then of this one.
+void append_key(motion::Clip& clip, const Solved& solved, bool first, dquat (&last)[joint_count]) {
+    for (int i = 0; i < 3; ++i) clip.channels[0].values.push_back(static_cast<float>(solved.position[hips][i]));
+    for (int joint = 0; joint < joint_count; ++joint) {
+        const int parent = rest_joints[joint].parent;
+        dquat local = parent < 0 ? solved.world[joint] : glm::inverse(solved.world[parent]) * solved.world[joint];
+        // Neighbouring keys on the same side of the 4-sphere: blends take the short way.
+        if (first ? local.w < 0.0 : glm::dot(local, last[joint]) < 0.0) local = -local;
+        last[joint] = local;
+        for (double v : {local.x, local.y, local.z, local.w})
+            clip.channels[joint + 1].values.push_back(static_cast<float>(v));
+    }
+}
+
 // Keys of `figure` over [0, duration] at `rate` [1/s]; the last is the first again, bit by bit.
 motion::Clip sample(const std::string& name, double duration, double rate,
                     const std::function<Figure(double)>& figure) {
@@ -561,19 +577,10 @@ motion::Clip sample(const std::string& name, double duration, double rate,
     const auto steps = static_cast<int>(std::lround(duration * rate));
     dquat last[joint_count];
     for (int step = 0; step <= steps; ++step) {
-        const Solved solved = solve(figure(step == steps ? 0.0 : step / rate));
+        const bool closing = step == steps;
+        append_key(clip, solve(figure(closing ? 0.0 : step / rate)), step == 0, last);
         for (motion::Channel& channel : clip.channels)
-            channel.times.push_back(static_cast<float>(step == steps ? duration : step / rate));
-        for (int i = 0; i < 3; ++i) clip.channels[0].values.push_back(static_cast<float>(solved.position[hips][i]));
-        for (int joint = 0; joint < joint_count; ++joint) {
-            const int parent = rest_joints[joint].parent;
-            dquat local = parent < 0 ? solved.world[joint] : glm::inverse(solved.world[parent]) * solved.world[joint];
-            // Neighbouring keys on the same side of the 4-sphere: blends take the short way.
-            if (step > 0 ? glm::dot(local, last[joint]) < 0.0 : local.w < 0.0) local = -local;
-            last[joint] = local;
-            for (double v : {local.x, local.y, local.z, local.w})
-                clip.channels[joint + 1].values.push_back(static_cast<float>(v));
-        }
+            channel.times.push_back(static_cast<float>(closing ? duration : step / rate));
     }
     return clip;
 }
@@ -581,16 +588,15 @@ motion::Clip sample(const std::string& name, double duration, double rate,
 }  // namespace
 
 std::vector<motion::Clip> build_person_clips() {
-    constexpr double calm_rate = 15.0;  // [1/s] enough for breathing
-    constexpr double lively_rate = 30.0;
-    constexpr double gait_rate = 60.0;  // a running foot turns by 10 degrees in a sixtieth
+    constexpr double act_rate = 30.0;   // [1/s] a dozen keys a clap
+    constexpr double gait_rate = 60.0;  // [1/s] a running foot turns by 10 degrees in a sixtieth
     const auto gait = [](const Gait& g) { return [&g](double t) { return gait_figure(g, t / g.cycle); }; };
     return {
-        sample("sit", act_duration, calm_rate, sit),
-        sample("clap", act_duration, lively_rate, clap),
-        sample("cheer", act_duration, lively_rate, cheer),
-        sample("wave", act_duration, lively_rate, wave),
-        sample("stand", act_duration, calm_rate, stand),
+        sample("sit", act_duration, act_rate, sit),
+        sample("clap", act_duration, act_rate, clap),
+        sample("cheer", act_duration, act_rate, cheer),
+        sample("wave", act_duration, act_rate, wave),
+        sample("stand", act_duration, act_rate, stand),
         sample("walk", walk_gait.cycle, gait_rate, gait(walk_gait)),
         sample("run", run_gait.cycle, gait_rate, gait(run_gait)),
     };

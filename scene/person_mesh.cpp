@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <initializer_list>
 #include <numbers>
 #include <span>
-#include <utility>
+#include <vector>
 
 #include "scene/person_rig.h"
 
@@ -93,10 +92,16 @@ constexpr Ring eye_rings[] = {
     {0.020, 0.000, 0.012, 0.008, 0, 2.0, head, head, 0.0, Tint::none, 1.00},
 };
 
+// The left ear, from inside the skull outward; front = down, where it is narrow.
+constexpr Ring ear_rings[] = {
+    {0.000, 0.000, 0.015, 0.026, 0, 2.0, head, head, 0.0, skin, 0.85},
+    {0.022, -0.003, 0.016, 0.028, 0, 2.0, head, head, 0.0, skin, 1.00},
+};
+
 // From the hairline, high at the forehead and low at the nape, up.
 constexpr Ring hair_rings[] = {
-    {1.638, 0.010, 0.079, 0.110, 34, 2.2, head, head, 0.0, hair, 0.80},
-    {1.695, -0.003, 0.083, 0.107, 16, 2.2, head, head, 0.0, hair, 1.00},
+    {1.641, 0.010, 0.079, 0.111, 35, 2.2, head, head, 0.0, hair, 0.80},
+    {1.695, -0.003, 0.082, 0.107, 17, 2.2, head, head, 0.0, hair, 1.00},
     {1.736, -0.006, 0.064, 0.084, 8, 2.1, head, head, 0.0, hair, 1.00},
     {1.752, -0.008, 0.026, 0.036, 4, 2.0, head, head, 0.0, hair, 1.00},
 };
@@ -233,10 +238,12 @@ void add_cap(Mesh& mesh, const Loop& ring, bool at_end) {
     }
 }
 
-// The rings of a part, each once for every tint that meets there.
+// The strip from one ring to the next.
 struct Band {
-    Loop lower, upper;  // the strip from one ring to the next
+    Loop lower, upper;
 };
+
+// Every ring of a part, twice where two tints meet.
 std::vector<Band> add_rings(Mesh& mesh, const Part& part) {
     std::vector<Band> bands;
     Loop lower = add_ring(mesh, part, part.rings[0], part.rings[0].tint);
@@ -327,6 +334,9 @@ Frame thumb_frame() {
     return {origin, axis, outward, glm::cross(axis, outward)};
 }
 
+// Ears stand off the skull, backward.
+constexpr Frame ear_frame{{0.062, 1.622, 0.010}, {0.8, 0, -0.6}, {0, -1, 0}, {-0.6, 0, -0.8}};
+
 constexpr Frame eye_frame{{0.031, 1.648, 0.078}, {0, 0, 1}, {0, 1, 0}, {-1, 0, 0}};
 
 Frame leg_frame() {
@@ -408,6 +418,7 @@ Mesh build_person_mesh() {
     add_part(mesh, {upright, hair_rings, 10});
     for (const Side side : {Side::left, Side::right}) {
         add_part(mesh, {on_side(eye_frame, side), eye_rings, 4, side, eye_color});
+        add_part(mesh, {on_side(ear_frame, side), ear_rings, 3, side});
         add_part(mesh, {on_side(thumb_frame(), side), thumb_rings, 3, side});
         add_part(mesh, {on_side(shoe_frame(), side), shoe_rings, 7, side, shoe_color});
     }

@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <numeric>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -260,6 +261,51 @@ TEST(Person, RotationsAreUnitAndNeverJump) {
             for (std::size_t key = 1; key < channel.times.size(); ++key)
                 EXPECT_GT(glm::dot(q[key - 1], q[key]), smallest_cosine)
                     << clip.name << ' ' << person().skeleton.nodes[channel.node].name << " at " << channel.times[key];
+        }
+}
+
+// How often the surface of `triangles` winds around `point` (Jacobson et al. 2013): 1 inside, 0 outside, and in
+// between near holes.
+double winding_number(const glm::vec3& point, const std::vector<glm::vec3>& positions,
+                      const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+    double solid_angle = 0;
+    for (const auto& triangle : triangles) {
+        const glm::dvec3 a(positions[triangle[0]] - point), b(positions[triangle[1]] - point),
+            c(positions[triangle[2]] - point);
+        const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+        solid_angle += 2.0 * std::atan2(glm::dot(a, glm::cross(b, c)),
+                                        la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
+    }
+    return solid_angle / (4.0 * 3.14159265358979);
+}
+
+TEST(Person, HandsStayOutOfTheBody) {
+    constexpr double look_every = 1.0 / 15.0;  // [s]
+    constexpr double inside = 0.5;
+    const Mesh& mesh = person().mesh;
+    const auto moved_by_arm = [&](std::uint32_t v) {
+        for (int slot = 0; slot < 4; ++slot)
+            if (mesh.weights[v][slot] > 0.0f &&
+                person().skeleton.nodes[mesh.joints[v][slot]].name.find("arm_") != std::string::npos)
+                return true;
+        return false;
+    };
+    const auto hands = [&] {
+        std::vector<std::size_t> both = vertices_of("hand_l");
+        for (const std::size_t v : vertices_of("hand_r")) both.push_back(v);
+        return both;
+    }();
+    std::vector<std::array<std::uint32_t, 3>> body;
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        const std::array triangle{mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]};
+        const bool of_hand = std::find(hands.begin(), hands.end(), triangle[0]) != hands.end();
+        if (!of_hand && std::none_of(triangle.begin(), triangle.end(), moved_by_arm)) body.push_back(triangle);
+    }
+    for (const Clip& clip : person().clips)
+        for (double t = 0; t < clip.duration; t += look_every) {
+            const auto positions = posed(clip, t);
+            for (const std::size_t v : hands)
+                ASSERT_LT(winding_number(positions[v], positions, body), inside) << clip.name << " at " << t;
         }
 }
 
