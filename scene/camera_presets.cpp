@@ -83,29 +83,51 @@ CameraPose remote(const StadiumPlan& plan) {
     return remote_from(plan, degrees(62), degrees(42));
 }
 
+// Keys a second apart that lead from `from` to `to`, slowly at both ends and slower where they near `to`: however far
+// outside a tour begins, it doesn't shoot into the bowl. Without the last.
+void add_approach(std::vector<CameraKey>& keys, const CameraKey& from, const CameraKey& to) {
+    const int steps = static_cast<int>(std::lround(std::abs(to.time - from.time)));
+    for (int i = 0; i < steps; ++i) {
+        const double t = static_cast<double>(i) / steps, smooth = t * t * (3 - 2 * t);
+        const double rest = (1 - smooth) * (1 - smooth);
+        keys.push_back(
+            {glm::mix(from.time, to.time, t),
+             {glm::mix(to.pose.position, from.pose.position, rest), glm::mix(to.pose.target, from.pose.target, rest),
+              glm::mix(to.pose.fov_y, from.pose.fov_y, rest)}});
+    }
+}
+
 // From outside over the rim, down to the infield, along the front row, up over a bend, and out again.
 CameraPath roam(const StadiumPlan& plan) {
-    const double over_rim = plan.rim_height + 14.0;
-    const double faces = first_floor + 2.1, beside = wall_offset - 0.7;
-    const double stand = plan.rows[plan.rows.size() / 3].floor;
+    const double above = plan.rim_height + 14.0;  // [m] over roof and masts
+    const double faces = first_floor + 2.1;       // [m] over the front row's raised hands
+    const double beside = wall_offset - 0.7;      // [m] before the wall
+    const double fov = degrees(50);
+    const auto front_row = [&](double x) { return beside_straight(plan, x, first_row_offset + 4, faces + 0.6); };
+    const CameraKey start{0, remote(plan)}, end{60, remote(plan)};
+    const CameraKey over_rim{8, {in_bend(plan, 1, degrees(60), plan.outer_offset, above), {-20, 0, 0}, fov}};
+    const CameraKey over_end{54, {in_bend(plan, 1, degrees(8), plan.outer_offset - 6, above + 4), {-40, 0, 0}, fov}};
     CameraPath path;
     path.closed = true;
-    const auto add = [&](double time, glm::dvec3 position, glm::dvec3 target, double fov) {
-        path.keys.push_back({time, {position, target, degrees(fov)}});
-    };
-    const CameraPose start = remote_from(plan, degrees(62), degrees(42));
-    add(0, start.position, start.target, 42);
-    add(8, in_bend(plan, 1, degrees(60), plan.outer_offset, over_rim), {-20, 0, 0}, 48);
-    add(14, {40, 14, 16}, {-40, 6, 30}, 50);
-    add(20, {20, 4.0, 14}, beside_straight(plan, 0, 20, 5), 50);
-    add(26, beside_straight(plan, -14, -4, 4.2), beside_straight(plan, -4, 18, 4.5), 50);
-    add(31, beside_straight(plan, -24, beside - 1.5, faces + 0.4),
-        beside_straight(plan, -14, first_row_offset + 4, faces + 0.6), 50);
-    add(38, beside_straight(plan, 6, beside, faces), beside_straight(plan, 16, first_row_offset + 4, faces + 0.6), 50);
-    add(44, beside_straight(plan, 36, beside, faces + 0.6), in_bend(plan, 1, degrees(55), 18, stand + 1), 50);
-    add(50, in_bend(plan, 1, degrees(20), 4, plan.rim_height * 0.7), {-30, 4, -30}, 55);
-    add(55, in_bend(plan, 1, degrees(8), plan.outer_offset - 6, over_rim + 4), {-40, 0, 0}, 50);
-    add(60, start.position, start.target, 42);
+    add_approach(path.keys, start, over_rim);
+    path.keys.insert(
+        path.keys.end(),
+        {over_rim,
+         {14, {{40, 14, 16}, {-40, 6, 30}, fov}},
+         {20, {{20, 4.0, 14}, beside_straight(plan, 0, 20, 5), fov}},
+         {25, {beside_straight(plan, -14, -4, 4.2), beside_straight(plan, -4, 18, 4.5), fov}},
+         {29, {beside_straight(plan, -24, beside - 3, faces + 0.4), front_row(-14), fov}},
+         {33, {beside_straight(plan, -14, beside, faces), front_row(-5), fov}},
+         {38, {beside_straight(plan, 8, beside, faces), front_row(18), fov}},
+         {42, {beside_straight(plan, 27, beside, faces + 0.3), front_row(38), fov}},
+         {44, {beside_straight(plan, 36, beside - 1, faces + 1.2), in_bend(plan, 1, degrees(70), 18, 5), fov}},
+         {46, {in_bend(plan, 1, degrees(76), 10, faces + 3.2), in_bend(plan, 1, degrees(35), 20, 6), fov}},
+         {48, {in_bend(plan, 1, degrees(52), 9, faces + 7), in_bend(plan, 1, degrees(-20), 14, 5), fov}},
+         {51, {in_bend(plan, 1, degrees(25), 8, faces + 11), {-20, 2, -40}, fov}}});
+    std::vector<CameraKey> leave;
+    add_approach(leave, end, over_end);
+    path.keys.push_back(over_end);
+    path.keys.insert(path.keys.end(), leave.rbegin(), leave.rend());
     return path;
 }
 

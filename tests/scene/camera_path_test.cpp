@@ -1,0 +1,361 @@
+#include "scene/camera_path.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include "tests/scene/fake_cast.h"
+
+namespace {
+
+using scene::CameraKey;
+using scene::CameraPath;
+using scene::CameraPose;
+using scene::Crowd;
+using scene::StadiumPlan;
+
+constexpr std::int64_t sizes[] = {1, 100, 20000, 60000, 200000, 1'000'000};
+constexpr double degree = std::numbers::pi / 180;
+
+CameraPath square_path() {
+    CameraPath path;
+    path.closed = true;
+    path.keys = {{1, {{0, 1, 0}, {5, 0, 5}, 0.8}},
+                 {2, {{10, 2, 0}, {5, 1, 5}, 0.9}},
+                 {4, {{10, 5, 10}, {5, 0, 5}, 1.0}},
+                 {7, {{0, 1, 10}, {5, 2, 5}, 0.7}},
+                 {8, {{0, 1, 0}, {5, 0, 5}, 0.8}}};
+    return path;
+}
+
+double difference(const CameraPose& a, const CameraPose& b) {
+    return std::max(
+        {glm::distance(a.position, b.position), glm::distance(a.target, b.target), std::abs(a.fov_y - b.fov_y)});
+}
+
+TEST(CameraPath, PassesThroughItsKeys) {
+    const CameraPath path = square_path();
+    for (const CameraKey& key : path.keys) EXPECT_LT(difference(path.at(key.time), key.pose), 1e-9);
+}
+
+TEST(CameraPath, AClosedPathRepeatsForEver) {
+    const CameraPath path = square_path();
+    for (double time = 1; time < 8; time += 0.137) {
+        EXPECT_LT(difference(path.at(time), path.at(time + 7 * 1000)), 1e-6);
+        EXPECT_LT(difference(path.at(time), path.at(time - 7 * 3)), 1e-6);
+    }
+}
+
+TEST(CameraPath, AnOpenPathStaysAtItsEnds) {
+    CameraPath path = square_path();
+    path.closed = false;
+    EXPECT_LT(difference(path.at(-100), path.keys.front().pose), 1e-9);
+    EXPECT_LT(difference(path.at(100), path.keys.back().pose), 1e-9);
+}
+
+TEST(CameraPath, OneKeyIsAStill) {
+    const CameraPath path{{{3, {{1, 2, 3}, {4, 5, 6}, 0.5}}}};
+    for (const double time : {-1.0, 3.0, 1e6}) EXPECT_LT(difference(path.at(time), path.keys.front().pose), 1e-12);
+}
+
+TEST(CameraPath, FieldOfViewStaysBetweenItsKeys) {
+    const CameraPath path = square_path();
+    for (double time = 1; time < 8; time += 0.01) {
+        EXPECT_GE(path.at(time).fov_y, 0.7);
+        EXPECT_LE(path.at(time).fov_y, 1.0);
+    }
+}
+
+TEST(CameraPath, LooksSomewhereEvenWhereTargetAndPositionMeet) {
+    const CameraPath path{{{0, {{0, 0, 0}, {2, 0, 0}, 1}}, {1, {{2, 0, 0}, {0, 0, 0}, 1}}}};
+    const CameraPose middle = path.at(0.5);
+    EXPECT_GT(glm::distance(middle.position, middle.target), 0.5);
+}
+
+// Largest change of velocity over a frame's time, anywhere on the path [m/s].
+double largest_jolt(const CameraPath& path, double begin, double end) {
+    constexpr double step = 1e-3;  // [s]
+    double largest = 0;
+    for (double time = begin; time < end; time += 1.0 / 60) {
+        for (const auto field : {&CameraPose::position, &CameraPose::target}) {
+            const glm::dvec3 before = path.at(time - step).*field, here = path.at(time).*field;
+            const glm::dvec3 after = path.at(time + step).*field;
+            largest = std::max(largest, glm::length((after - here) - (here - before)) / step);
+        }
+    }
+    return largest;
+}
+
+TEST(CameraPath, VelocityIsContinuousAcrossKeysAndTheSeam) {
+    constexpr double tolerance = 0.2;  // [m/s] what acceleration makes of 1 ms; a kink would be metres a second
+    CameraPath path = square_path();
+    EXPECT_LT(largest_jolt(path, 0.5, 16), tolerance);
+    for (const std::int64_t people : sizes) {
+        const CameraPath roam = scene::preset_path("roam", scene::plan_stadium(people));
+        const double size = glm::length(roam.keys.front().pose.position) / 200;  // larger tours fly faster
+        EXPECT_LT(largest_jolt(roam, -1, 61), tolerance * std::max(size, 1.0)) << people << " people";
+    }
+}
+
+TEST(Presets, ThoseThatAreNamedExist) {
+    const StadiumPlan plan = scene::plan_stadium(1000);
+    for (const char* name : {"still", "close", "medium", "remote", "roam"}) {
+        EXPECT_TRUE(scene::is_preset(name));
+        EXPECT_FALSE(scene::preset_path(name, plan).keys.empty());
+    }
+    EXPECT_FALSE(scene::is_preset("nearby"));
+    try {
+        scene::preset_path("nearby", plan);
+        FAIL() << "accepted";
+    } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what()).find("still, close, medium, remote, roam"), std::string::npos);
+    }
+}
+
+TEST(Presets, RoamIsAClosedTourOfAMinute) {
+    const CameraPath roam = scene::preset_path("roam", scene::plan_stadium(20000));
+    EXPECT_TRUE(roam.closed);
+    EXPECT_EQ(roam.keys.back().time - roam.keys.front().time, 60.0);
+    EXPECT_LT(difference(roam.keys.front().pose, roam.keys.back().pose), 1e-12);
+}
+
+// Where cameras of all presets are: stills, and the tour frame by frame.
+std::vector<CameraPose> all_poses(const StadiumPlan& plan) {
+    std::vector<CameraPose> poses;
+    for (const char* name : {"still", "close", "medium", "remote"}) {
+        poses.push_back(scene::preset_path(name, plan).at(0));
+    }
+    const CameraPath roam = scene::preset_path("roam", plan);
+    for (int frame = 0; frame < 60 * 20; ++frame) poses.push_back(roam.at(frame / 20.0));
+    return poses;
+}
+
+double distance_to_segment(glm::dvec3 point, glm::dvec3 a, glm::dvec3 b) {
+    const double t = std::clamp(glm::dot(point - a, b - a) / glm::dot(b - a, b - a), 0.0, 1.0);
+    return glm::distance(point, glm::mix(a, b, t));
+}
+
+double distance_to_triangle(glm::dvec3 point, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
+    const glm::dvec3 normal = glm::normalize(glm::cross(b - a, c - a));
+    const bool above = glm::dot(glm::cross(b - a, point - a), normal) >= 0 &&
+                       glm::dot(glm::cross(c - b, point - b), normal) >= 0 &&
+                       glm::dot(glm::cross(a - c, point - c), normal) >= 0;
+    if (above) return std::abs(glm::dot(point - a, normal));
+    return std::min(
+        {distance_to_segment(point, a, b), distance_to_segment(point, b, c), distance_to_segment(point, c, a)});
+}
+
+TEST(Presets, KeepClearOfWallsRoofAndGround) {
+    constexpr double clearance = 0.5;  // [m]
+    for (const std::int64_t people : sizes) {
+        const StadiumPlan plan = scene::plan_stadium(people);
+        const scene::StaticMesh mesh = scene::build_structure(plan);
+        const std::vector<CameraPose> poses = all_poses(plan);
+        for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+            const glm::dvec3 a(mesh.vertices[mesh.indices[i]].position);
+            const glm::dvec3 b(mesh.vertices[mesh.indices[i + 1]].position);
+            const glm::dvec3 c(mesh.vertices[mesh.indices[i + 2]].position);
+            const glm::dvec3 low = glm::min(a, glm::min(b, c)) - clearance,
+                             high = glm::max(a, glm::max(b, c)) + clearance;
+            for (std::size_t p = 0; p < poses.size(); ++p) {
+                const glm::dvec3 at = poses[p].position;
+                if (glm::clamp(at, low, high) != at) continue;
+                ASSERT_GT(distance_to_triangle(at, a, b, c), clearance)
+                    << people << " people, pose " << p << " at " << at.x << ' ' << at.y << ' ' << at.z;
+            }
+        }
+    }
+}
+
+TEST(Presets, KeepClearOfPeople) {
+    constexpr double clearance = 0.6;  // [m] from the axis of a person with arms up: shoulders and a near plane
+    constexpr double reach = 1.3;      // of the height
+    constexpr double track_width = 8 * 1.22, athletes_reach = 2.8;  // [m]
+    const tests::FakeCast cast = tests::sitters();
+    for (const std::int64_t people : sizes) {
+        const StadiumPlan plan = scene::plan_stadium(people);
+        const Crowd crowd = scene::populate(plan, people, cast.members, cast.poses, 1);
+        for (const CameraPose& pose : all_poses(plan)) {
+            const double offset = plan.oval.offset_of({pose.position.x, pose.position.z});
+            if (offset > -1 && offset < track_width + 1) {
+                ASSERT_GT(pose.position.y, athletes_reach);
+            }
+            for (const scene::CrowdBlock& block : crowd.blocks) {
+                const glm::dvec3 low = glm::dvec3(block.box.min) - clearance,
+                                 high = glm::dvec3(block.box.max) + clearance;
+                if (glm::clamp(pose.position, low, high) != pose.position) continue;
+                for (std::size_t i = block.first; i < block.first + block.count; ++i) {
+                    if (crowd.role[i] == scene::Role::walker || crowd.role[i] == scene::Role::runner) break;
+                    const glm::dvec3 feet(crowd.position[i]);
+                    const glm::dvec3 hands = feet + glm::dvec3(0, reach * static_cast<double>(crowd.height[i]), 0);
+                    ASSERT_GT(distance_to_segment(pose.position, feet, hands), clearance)
+                        << people << " people at " << pose.position.x << ' ' << pose.position.y << ' '
+                        << pose.position.z;
+                }
+            }
+        }
+    }
+}
+
+// The share of a crowd whose feet are in a picture of 16:9.
+double share_in_view(const CameraPose& pose, const Crowd& crowd, const scene::CastMember& member) {
+    const glm::dvec3 forward = glm::normalize(pose.target - pose.position);
+    const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0, 1, 0))), up = glm::cross(right, forward);
+    const double slope = std::tan(pose.fov_y / 2);
+    std::size_t seen = 0;
+    for (std::size_t i = 0; i < crowd.size(); ++i) {
+        const glm::dvec3 to = glm::dvec3(scene::place(crowd, i, member, 0).position) - pose.position;
+        const double depth = glm::dot(to, forward);
+        seen += depth > 0 && std::abs(glm::dot(to, up)) < slope * depth &&
+                std::abs(glm::dot(to, right)) < slope * depth * 16 / 9;
+    }
+    return static_cast<double>(seen) / static_cast<double>(crowd.size());
+}
+
+TEST(Presets, RemoteHasEverybodyInView) {
+    const tests::FakeCast cast = tests::sitters();
+    for (const std::int64_t people : sizes) {
+        const StadiumPlan plan = scene::plan_stadium(people);
+        const Crowd crowd = scene::populate(plan, people, cast.members, cast.poses, 1);
+        const CameraPose pose = scene::preset_path("remote", plan).at(0);
+        EXPECT_EQ(share_in_view(pose, crowd, cast.members[0]), 1.0) << people << " people";
+        EXPECT_GT(pose.position.y, plan.rim_height);
+    }
+}
+
+TEST(Presets, StillHasMostOfAFullStadiumInView) {
+    const tests::FakeCast cast = tests::sitters();
+    for (const std::int64_t people : {std::int64_t{8000}, std::int64_t{20000}, std::int64_t{60000}}) {
+        const StadiumPlan plan = scene::plan_stadium(people);
+        const Crowd crowd = scene::populate(plan, people, cast.members, cast.poses, 1);
+        EXPECT_GT(share_in_view(scene::preset_path("still", plan).at(0), crowd, cast.members[0]), 0.6);
+    }
+}
+
+double nearest_spectator(const CameraPose& pose, const Crowd& crowd) {
+    constexpr double face_height = 1.2;  // [m] seated
+    double nearest = 1e9;
+    for (std::size_t i = 0; i < crowd.size(); ++i) {
+        if (crowd.role[i] != scene::Role::spectator) continue;
+        const glm::dvec3 face = glm::dvec3(crowd.position[i]) + glm::dvec3(0, face_height, 0);
+        nearest = std::min(nearest, glm::distance(face, pose.position));
+    }
+    return nearest;
+}
+
+TEST(Presets, CloseAndMediumAreAsNearAsTheyShould) {
+    const tests::FakeCast cast = tests::sitters();
+    for (const std::int64_t people : {std::int64_t{100}, std::int64_t{20000}, std::int64_t{200000}}) {
+        const StadiumPlan plan = scene::plan_stadium(people);
+        const Crowd crowd = scene::populate(plan, people, cast.members, cast.poses, 1);
+        const double close = nearest_spectator(scene::preset_path("close", plan).at(0), crowd);
+        EXPECT_GT(close, 1.0);
+        EXPECT_LT(close, 6.0);
+        const double medium = nearest_spectator(scene::preset_path("medium", plan).at(0), crowd);
+        EXPECT_GT(medium, 20.0);
+        EXPECT_LT(medium, 50.0);
+    }
+}
+
+// A file that is there for as long as a test runs.
+class File : public testing::Test {
+protected:
+    const std::filesystem::path path =
+        std::filesystem::path(testing::TempDir()) /
+        (std::string("camera_") + testing::UnitTest::GetInstance()->current_test_info()->name() + ".json");
+
+    void write(const std::string& text) const { std::ofstream(path, std::ios::binary) << text; }
+    void TearDown() override { std::filesystem::remove(path); }
+
+    std::string complaint() const {
+        try {
+            scene::load_camera_path(path);
+        } catch (const std::runtime_error& error) {
+            return error.what();
+        }
+        return "";
+    }
+};
+
+using CameraFile = File;
+
+TEST_F(CameraFile, LoadsWhatItSays) {
+    write(R"({"closed": true, "keys": [
+        {"time_s": 0, "position": [1, 2, 3], "target": [4, 5, 6], "fov_deg": 50},
+        {"time_s": 2.5, "position": [-1, 2, 3], "target": [4, 5, 6], "fov_deg": 60.5},
+        {"time_s": 4, "position": [1, 2, 3], "target": [4, 5, 6], "fov_deg": 50}]})");
+    const CameraPath loaded = scene::load_camera_path(path);
+    EXPECT_TRUE(loaded.closed);
+    ASSERT_EQ(loaded.keys.size(), 3u);
+    EXPECT_EQ(loaded.keys[1].time, 2.5);
+    EXPECT_EQ(loaded.keys[1].pose.position, glm::dvec3(-1, 2, 3));
+    EXPECT_EQ(loaded.keys[1].pose.target, glm::dvec3(4, 5, 6));
+    EXPECT_NEAR(loaded.keys[1].pose.fov_y, 60.5 * degree, 1e-12);
+}
+
+TEST_F(CameraFile, IsOpenUnlessItSaysOtherwise) {
+    write(R"({"keys": [{"time_s": 7, "position": [1, 2, 3], "target": [4, 5, 6], "fov_deg": 50}]})");
+    EXPECT_FALSE(scene::load_camera_path(path).closed);
+}
+
+std::string key(const std::string& time, const std::string& position, const std::string& target,
+                const std::string& fov) {
+    return R"({"time_s":)" + time + R"(,"position":)" + position + R"(,"target":)" + target + R"(,"fov_deg":)" + fov +
+           "}";
+}
+
+std::string keys(const std::string& list) {
+    return R"({"keys":[)" + list + "]}";
+}
+
+TEST_F(CameraFile, RefusesBadOnesInOneLineThatNamesFileAndPlace) {
+    const std::string good = key("0", "[0,1,0]", "[1,1,1]", "50");
+    const std::pair<std::string, std::string> cases[] = {
+        {"", "line 1"},
+        {"{\n\"keys\": [,]}", "line 2"},
+        {"[1e999]", "expected JSON"},
+        {"[]", "an object with closed, keys"},
+        {"{}", "no member 'keys'"},
+        {R"({"keys":{}})", "an array of 1 to"},
+        {R"({"keys":[]})", "0 keys"},
+        {R"({"keys":[3]})", "keys[0]"},
+        {R"({"kees":[]})", "\"kees\""},
+        {R"({"closed":1,"keys":[]})", "true or false"},
+        {keys(key("\"0\"", "[0,1,0]", "[1,1,1]", "50")), "keys[0].time_s: found \"0\""},
+        {keys(key("-1", "[0,1,0]", "[1,1,1]", "50")), "keys[0].time_s: found -1"},
+        {keys(key("0", "[0,1]", "[1,1,1]", "50")), "[x, y, z]"},
+        {keys(key("0", "[0,1,1e300]", "[1,1,1]", "50")), "keys[0].position"},
+        {keys(key("0", "[0,1,null]", "[1,1,1]", "50")), "found null"},
+        {keys(key("0", "[1,1,1]", "[1,1,1]", "50")), "from the position"},
+        {keys(key("0", "[0,1,0]", "[1,1,1]", "1")), "fov_deg: found 1,"},
+        {keys(key("0", "[0,1,0]", "[1,1,1]", "170")), "fov_deg: found 170,"},
+        {keys(key("0", "[0,1,0]", "[1,1,1]", "-20")), "fov_deg: found -20,"},
+        {keys(good + "," + good), "keys[1].time_s: found 0"},
+        {R"({"closed":true,"keys":[)" + good + "]}", "at least 2"},
+        {R"({"closed":true,"keys":[)" + good + "," + key("1", "[0,1,0]", "[1,1,2]", "50") + "]}", "unlike the first"},
+        {std::string(100'000, '['), "line 1"},
+    };
+    for (const auto& [text, expected] : cases) {
+        write(text);
+        const std::string said = complaint();
+        EXPECT_NE(said.find(expected), std::string::npos) << text.substr(0, 200) << " -> " << said;
+        EXPECT_EQ(said.find(path.string()), 0u) << said;
+        EXPECT_EQ(said.find('\n'), std::string::npos) << said;
+        EXPECT_NE(said.find("expected"), std::string::npos) << said;
+        EXPECT_LT(said.size(), path.string().size() + 300) << said;
+    }
+}
+
+TEST_F(CameraFile, RefusesWhatIsMissingAFolderOrTooLarge) {
+    EXPECT_NE(complaint().find("can't be read"), std::string::npos);
+    std::filesystem::create_directory(path);
+    EXPECT_NE(complaint().find("folder"), std::string::npos);
+    std::filesystem::remove(path);
+    write(std::string((4 << 20) + 1, ' '));
+    EXPECT_NE(complaint().find("bytes"), std::string::npos);
+}
+
+}  // namespace
