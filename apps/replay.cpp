@@ -121,16 +121,19 @@ void redecide(sfsm::Trace& trace, const Options& options) {
 int replay(const Options& options) {
     sfsm::Trace trace = read(options.trace);
     redecide(trace, options);
-    if (!options.csv.empty()) {
-        apps::OutputFile csv(options.csv);
-        sfsm::write_trace_header(csv.stream(), trace.settings);
-        for (const sfsm::TraceRow& row : trace.rows) sfsm::write_trace_row(csv.stream(), row);
-        csv.commit();
+    const std::string summary_path = options.summary.empty() && options.csv != "-" ? "-" : options.summary;
+    // Both are opened before either is written: a place that cannot be written leaves neither.
+    std::optional<apps::OutputFile> csv, summary;
+    if (!options.csv.empty()) csv.emplace(options.csv);
+    if (!summary_path.empty()) summary.emplace(summary_path);
+    if (csv) {
+        sfsm::write_trace_header(csv->stream(), trace.settings);
+        for (const sfsm::TraceRow& row : trace.rows) sfsm::write_trace_row(csv->stream(), row);
+        csv->commit();
     }
-    const std::string default_summary = options.csv == "-" ? "" : "-";
-    const std::string& summary = options.summary.empty() ? default_summary : options.summary;
-    if (!summary.empty()) {
-        apps::write_output(summary, sfsm::summary_json(sfsm::summarize(trace.rows), trace.settings));
+    if (summary) {
+        summary->stream() << sfsm::summary_json(sfsm::summarize(trace.rows), trace.settings);
+        summary->commit();
     }
     return 0;
 }

@@ -1,0 +1,197 @@
+#include "sfsm/trace.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <locale>
+#include <random>
+#include <sstream>
+#include <stdexcept>
+
+#include "tests/sfsm/simulation.h"
+
+namespace sfsm {
+namespace {
+
+constexpr const char* header =
+    "frame,target_ms,frame_ms,cpu_ms,gpu_ms,state,motion_distance_m,splat_px,visible,triangles,points,motion_updates,"
+    "range_m\n";
+constexpr const char* good_row = "0,16.6,20,3,nan,2,100,1.5,10,0,300,4,200\n";
+
+Trace read(const std::string& text) {
+    std::istringstream in(text);
+    return read_trace(in, "t.csv");
+}
+
+std::string write(const Trace& trace) {
+    std::ostringstream out;
+    write_trace_header(out, trace.settings);
+    for (const TraceRow& row : trace.rows) write_trace_row(out, row);
+    return out.str();
+}
+
+// Any bits but those of the many NaNs, which are all written alike.
+double any_double(std::mt19937_64& random) {
+    const double value = std::bit_cast<double>(random());
+    return std::isnan(value) ? std::numeric_limits<double>::quiet_NaN() : value;
+}
+
+TraceRow any_row(std::mt19937_64& random, std::int64_t frame) {
+    TraceRow row;
+    row.frame = frame;
+    for (double* value : {&row.target_ms, &row.frame_ms, &row.cpu_ms, &row.gpu_ms, &row.range})
+        *value = any_double(random);
+    row.decision.state = static_cast<State>(random() % 3);
+    row.decision.motion_distance = uniform(random, 1e-3, 1e3);
+    row.decision.splat_size = uniform(random, 0, max_splat_size);
+    if (random() % 4 == 0) row.decision = {};
+    for (std::int64_t* count : {&row.work.people, &row.work.triangles, &row.work.points, &row.work.motion_updates}) {
+        *count = static_cast<std::int64_t>(random() >> (1 + random() % 63));
+    }
+    return row;
+}
+
+bool same_bits(double a, double b) {
+    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+
+TEST(Trace, EveryRowReadsBackToTheSameBits) {
+    std::mt19937_64 random(5);
+    Trace trace;
+    for (int i = 0; i < 5000; ++i) trace.rows.push_back(any_row(random, 3 * i));
+    const Trace back = read(write(trace));
+    ASSERT_EQ(back.rows.size(), trace.rows.size());
+    for (std::size_t i = 0; i < trace.rows.size(); ++i) {
+        const TraceRow &a = trace.rows[i], &b = back.rows[i];
+        EXPECT_EQ(a.frame, b.frame);
+        EXPECT_EQ(a.decision, b.decision);
+        EXPECT_EQ(a.work, b.work);
+        EXPECT_TRUE(same_bits(a.target_ms, b.target_ms) && same_bits(a.frame_ms, b.frame_ms) &&
+                    same_bits(a.cpu_ms, b.cpu_ms) && same_bits(a.gpu_ms, b.gpu_ms) && same_bits(a.range, b.range))
+            << "row " << i;
+    }
+}
+
+TEST(Trace, SettingsReadBackAndStayOnTheirLine) {
+    Trace trace;
+    trace.settings = {{"law", "paper"}, {"device", "llvmpipe (LLVM 15.0.6, 256 bits) = a \"device\""}, {"empty", ""}};
+    EXPECT_EQ(read(write(trace)).settings, trace.settings);
+    trace.settings = {{"device", "two\nlines\r"}};
+    EXPECT_EQ(read(write(trace)).settings.at("device"), "two lines ");
+}
+
+struct Grouping : std::numpunct<char> {
+    char do_decimal_point() const override { return ','; }
+    char do_thousands_sep() const override { return '.'; }
+    std::string do_grouping() const override { return "\3"; }
+};
+
+TEST(Trace, TheLocaleOfAStreamChangesNothing) {
+    std::mt19937_64 random(6);
+    Trace trace;
+    trace.rows.push_back(any_row(random, 1234567));
+    std::ostringstream out;
+    out.imbue(std::locale(out.getloc(), new Grouping));
+    write_trace_header(out, trace.settings);
+    write_trace_row(out, trace.rows[0]);
+    EXPECT_EQ(out.str(), write(trace));
+}
+
+TEST(Trace, TheHeaderBeginsWithTheContract) {
+    const std::string text = write({});
+    EXPECT_EQ(text, header);
+}
+
+TEST(Trace, EmptyTimesAreNotMeasuredAndInfiniteDistanceIsInf) {
+    const Trace trace = read(std::string(header) + "7,16.6,,,,0,inf,0,1,2,3,4,200\n");
+    ASSERT_EQ(trace.rows.size(), 1u);
+    EXPECT_TRUE(std::isnan(trace.rows[0].frame_ms) && std::isnan(trace.rows[0].cpu_ms) &&
+                std::isnan(trace.rows[0].gpu_ms));
+    EXPECT_EQ(trace.rows[0].decision, Decision{});
+    EXPECT_NE(write(trace).find("7,16.6,nan,nan,nan,0,inf,0,1,2,3,4,200\n"), std::string::npos);
+}
+
+TEST(Trace, ColumnsAreFoundByNameAndUnknownOnesSkipped) {
+    const Trace trace = read(
+        "# law=paper\r\n"
+        "range_m,extra,points,frame,target_ms,frame_ms,cpu_ms,gpu_ms,state,motion_distance_m,splat_px,visible,"
+        "triangles,"
+        "motion_updates\r\n"
+        "200,hello,300,5,16.6,20,3,4,2,100,1.5,10,0,4\r\n");
+    ASSERT_EQ(trace.rows.size(), 1u);
+    EXPECT_EQ(trace.settings.at("law"), "paper");
+    EXPECT_EQ(trace.rows[0].frame, 5);
+    EXPECT_EQ(trace.rows[0].range, 200);
+    EXPECT_EQ(trace.rows[0].work, (Work{10, 0, 300, 4}));
+    EXPECT_EQ(trace.rows[0].decision, (Decision{State::points, 100, 1.5}));
+}
+
+struct Bad {
+    std::string text;
+    const char* where;
+    const char* said;
+};
+
+TEST(Trace, BadTextIsNamedByFileAndLine) {
+    const std::string h = header, ok = good_row;
+    const Bad bads[] = {
+        {"", "t.csv:", "no header"},
+        {"# law=paper\n", "t.csv:", "no header"},
+        {"hello\n", "t.csv:1:", "0 columns 'frame'"},
+        {"\n" + h, "t.csv:1:", "0 columns 'frame'"},
+        {"frame," + h, "t.csv:1:", "2 columns 'frame'"},
+        {h + "1,2,3\n", "t.csv:2:", "3 fields, expected 13"},
+        {h + ok + "\n", "t.csv:3:", "1 fields"},
+        {h + ok + "# law=paper\n", "t.csv:3:", "1 fields"},
+        {h + ok + "1,16.6,20,3,nan,2,100,1.5,10,0,30", "t.csv:3:", "11 fields"},
+        {h + ok + ok, "t.csv:3:", "found frame 0, expected one after 0"},
+        {h + "-1,16.6,20,3,nan,2,100,1.5,10,0,300,4,200\n", "t.csv:2:", "frame is '-1'"},
+        {h + "0.5,16.6,20,3,nan,2,100,1.5,10,0,300,4,200\n", "t.csv:2:", "frame is '0.5'"},
+        {h + "0,,20,3,nan,2,100,1.5,10,0,300,4,200\n", "t.csv:2:", "target_ms is ''"},
+        {h + "0,16.6,2x,3,nan,2,100,1.5,10,0,300,4,200\n", "t.csv:2:", "frame_ms is '2x'"},
+        {h + "0,16.6,20,3,nan,3,100,1.5,10,0,300,4,200\n", "t.csv:2:", "state is '3', expected 0, 1 or 2"},
+        {h + "0,16.6,20,3,nan,,100,1.5,10,0,300,4,200\n", "t.csv:2:", "state is ''"},
+        {h + "0,16.6,20,3,nan,2,0,1.5,10,0,300,4,200\n", "t.csv:2:", "motion_distance_m is '0'"},
+        {h + "0,16.6,20,3,nan,2,nan,1.5,10,0,300,4,200\n", "t.csv:2:", "motion_distance_m is 'nan'"},
+        {h + "0,16.6,20,3,nan,2,100,33,10,0,300,4,200\n", "t.csv:2:", "splat_px is '33', expected pixels in [0, 32]"},
+        {h + "0,16.6,20,3,nan,2,100,1.5,ten,0,300,4,200\n", "t.csv:2:", "visible is 'ten'"},
+        {h + "0,16.6,20,3,nan,2,100,1.5,10,0,300,4,\n", "t.csv:2:", "range_m is ''"},
+    };
+    for (const Bad& bad : bads) {
+        try {
+            read(bad.text);
+            ADD_FAILURE() << "accepted: " << bad.text;
+        } catch (const std::runtime_error& error) {
+            const std::string message = error.what();
+            EXPECT_TRUE(message.starts_with(bad.where)) << message;
+            EXPECT_NE(message.find(bad.said), std::string::npos) << message;
+            EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+        }
+    }
+}
+
+TEST(Trace, DamagedBytesAreReadOrRefusedButNeverCrash) {
+    std::mt19937_64 random(8);
+    Trace trace;
+    trace.settings = {{"law", "paper"}};
+    for (int i = 0; i < 5; ++i) trace.rows.push_back(any_row(random, i));
+    const std::string whole = write(trace);
+    int refused = 0;
+    for (int trial = 0; trial < 5000; ++trial) {
+        std::string text = whole.substr(0, random() % 4 == 0 ? random() % whole.size() : whole.size());
+        for (std::uint64_t i = random() % 4; i > 0 && !text.empty(); --i) {
+            text[random() % text.size()] = static_cast<char>(random());
+        }
+        try {
+            read(text);
+        } catch (const std::runtime_error&) {
+            ++refused;
+        }
+    }
+    EXPECT_GT(refused, 1000);
+}
+
+}  // namespace
+}  // namespace sfsm
