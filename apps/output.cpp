@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <iostream>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 
 namespace apps {
@@ -59,12 +60,6 @@ void OutputFile::commit() {
     std::filesystem::rename(temporary_, target_, error);
     if (error) fail(path_, error.message());
     temporary_.clear();
-}
-
-void write_output(const std::string& path, std::string_view text) {
-    OutputFile file(path);
-    file.stream().write(text.data(), static_cast<std::streamsize>(text.size()));
-    file.commit();
 }
 
 }  // namespace apps

@@ -4,7 +4,6 @@
 #include <fstream>
 #include <ostream>
 #include <string>
-#include <string_view>
 
 namespace apps {
 
@@ -29,8 +28,5 @@ private:
     std::string temporary_;  // empty where the target is written directly
     std::ofstream file_;
 };
-
-// All of `text` (bytes) into `path`. Throws as OutputFile does.
-void write_output(const std::string& path, std::string_view text);
 
 }  // namespace apps

@@ -43,7 +43,7 @@ Exit codes: 0 done (reproduced), 1 failed (not reproduced), 2 usage.)";
 void add_options(CLI::App& app, Options& options) {
     app.set_version_flag("--version", "replay " GRANDSTAND_VERSION);
     app.footer(examples);
-    app.add_option("TRACE", options.trace, "Trace of a run, as stadium --trace writes it")->required();
+    app.add_option("TRACE", options.trace, "Trace of a run, as stadium --trace writes it (required)");
     const std::span<const std::string_view> names = sfsm::law_names();
     const std::vector<std::string> laws(names.begin(), names.end());
     auto* law = app.add_option("--law", options.law, "Law to feed; default: the trace's")->check(CLI::IsMember(laws));
@@ -140,6 +140,7 @@ int replay(const Options& options) {
 
 // What CLI11 cannot see; throws std::invalid_argument.
 void check(const Options& options) {
+    if (options.trace.empty()) throw std::invalid_argument("found no TRACE, expected the trace of a run");
     if (options.csv == "-" && options.summary == "-") {
         throw std::invalid_argument("found --csv - and --summary -, expected at most one of them on standard output");
     }

@@ -85,7 +85,8 @@ TEST_F(ReplayProgram, HelpAndVersionSucceed) {
 TEST_F(ReplayProgram, UsageErrorsAreOneLineAndCode2) {
     const std::string trace = save(recorded());
     const std::pair<std::string, const char*> bads[] = {
-        {"", "TRACE"},
+        {"", "found no TRACE"},
+        {"--nonsense", "--nonsense"},
         {trace + " --nonsense", "--nonsense"},
         {trace + " --law papier", "papier"},
         {trace + " --target-ms nan", "nan"},
