@@ -102,9 +102,11 @@ Action alternate(const Acts& acts, const motion::PoseTable& poses, std::uint32_t
     if (waves && 3 * length < wave_interval) {
         const std::int64_t wave = floor_div(tick - wave_start(0, lap, own), wave_interval);
         const std::int64_t last = wave_start(wave, lap, own), next = last + wave_interval;
-        const bool in_last = takes_part(wave, own), in_next = takes_part(wave + 1, own);
-        if (in_last && tick < last + length) return {acts.excited.front(), tick - last};
-        if ((in_last && start < last + length) || (in_next && start + length > next)) return {acts.calm.front(), 0};
+        if (start < last + length && takes_part(wave, own)) {
+            if (tick < last + length) return {acts.excited.front(), tick - last};
+            return {acts.calm.front(), 0};
+        }
+        if (start + length > next && takes_part(wave + 1, own)) return {acts.calm.front(), 0};
     }
     const std::uint64_t bits = hash(hash(own, salt_act), static_cast<std::uint64_t>(period));
     const bool excited = unit(bits) < excitement(lap, start);

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <filesystem>
-#include <glm/glm.hpp>
 #include <string>
 #include <vector>
+
+#include <glm/glm.hpp>
 
 #include "scene/stadium.h"
 
@@ -21,8 +22,8 @@ struct CameraKey {
     CameraPose pose;
 };
 
-// Catmull-Rom through the keys; one key = a still camera. A closed path runs from the last key's time back to the
-// first.
+// Catmull-Rom through the keys; one key = a still camera. A closed path runs from the last key's time
+// back to the first. Where position and target would meet between keys, the camera looks along z.
 struct CameraPath {
     std::vector<CameraKey> keys;  // ascending times, >= 1
     bool closed = false;          // repeats for ever: the last key equals the first
@@ -30,9 +31,11 @@ struct CameraPath {
 };
 
 // "still", "close", "medium", "remote", "roam" for this stadium, or throws std::runtime_error naming the presets.
-//   still   from a seat high in a corner, most of the stadium in view      close   a few metres from people in the
-//   stands medium  from the infield towards a stand                               remote  from above the rim, everybody
-//   in view roam    a 60 s closed tour that goes close, medium and remote
+//   still   from a seat high in a corner, most of the stadium in view
+//   close   a few metres from people in the stands
+//   medium  from the infield towards a stand
+//   remote  from above the rim, everybody in view
+//   roam    a 60 s closed tour that goes close, medium and remote
 CameraPath preset_path(const std::string& name, const StadiumPlan& plan);
 bool is_preset(const std::string& name);
 

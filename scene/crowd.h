@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
-#include <glm/glm.hpp>
 #include <span>
+#include <string>
 #include <vector>
+
+#include <glm/glm.hpp>
 
 #include "motion/pose.h"
 #include "motion/pose_table.h"
@@ -42,8 +44,9 @@ struct CrowdBlock {
 
 struct Crowd {
     // One element a person, blocks contiguous.
-    std::vector<glm::vec3>
-        position;               // [m] feet; for walkers and runners x = lane offset [m], y = 0, z = arc at tick 0 [m]
+    // [m] Where the model's origin goes: the feet of who stands; who sits rests on the seat whatever their size. For
+    // walkers and runners x = lane offset [m], y = 0, z = arc at tick 0 [m].
+    std::vector<glm::vec3> position;
     std::vector<float> yaw;     // [rad]
     std::vector<float> height;  // [m] standing, 1.5-2.0
     std::vector<std::uint8_t> character;
@@ -58,7 +61,7 @@ struct Crowd {
 
 // Where and how one person is at a tick.
 struct Placement {
-    glm::vec3 position;  // [m] feet
+    glm::vec3 position;  // [m] of the model's origin
     float yaw;           // [rad]
 };
 struct Action {

@@ -4,8 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <glm/glm.hpp>
 #include <numbers>
+
+#include <glm/glm.hpp>
 
 #include "scene/crowd.h"
 #include "scene/stadium.h"
@@ -26,7 +27,7 @@ inline constexpr float first_floor = 1.2f;      // [m] height of the walkway and
 inline constexpr float parapet_height = 0.45f;  // [m] above the walkway behind it
 inline constexpr float parapet_depth = 0.2f;    // [m]
 inline constexpr float row_depth = 0.8f;        // [m] tread
-inline constexpr float hips_depth = 0.58f;  // [m] from the tread's front edge: knees reach 0.5 m ahead and stay on it
+inline constexpr float hips_depth = 0.61f;  // [m] from the tread's front edge: backs lean 0.15 m, toes reach 0.56 m
 inline constexpr float stander_depth = 0.18f;      // [m] the same for who stands in front of the seat
 inline constexpr float seat_pitch = 0.52f;         // [m] between neighbours
 inline constexpr float aisle_width = 1.2f;         // [m]

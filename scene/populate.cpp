@@ -9,6 +9,7 @@
 #include "scene/crowd.h"
 #include "scene/layout.h"
 #include "scene/looks.h"
+#include "scene/person.h"
 #include "scene/random.h"
 
 namespace scene {
@@ -175,6 +176,24 @@ std::vector<std::uint32_t> choose_seats(const Gathering& gathering, std::size_t 
     return smallest(seats, count, [&](std::uint32_t seat) { return gathering.bits(salt_seat, seat); });
 }
 
+// Who sits rests on the seat whatever their size: their feet may be some centimetres in or above the floor. Who
+// can't sit stands in front of it.
+void take_seat(Gathering& gathering, std::uint32_t which) {
+    constexpr float yaw_jitter = 0.12f;  // [rad]
+    const Seat& seat = gathering.plan.seats[which];
+    const std::uint64_t own = gathering.bits(salt_seat, which);
+    const std::uint8_t character = gathering.draw_character(hash(own, salt_looks));
+    const float height = draw_height(hash(own, salt_height));
+    glm::vec3 position = seat.position;
+    if (gathering.cast[character].sits) {
+        position.y += seat_height * (1.0f - height / gathering.poses[character].rest_height);
+    } else {
+        position += (hips_depth - stander_depth) * glm::vec3(std::sin(seat.yaw), 0, std::cos(seat.yaw));
+    }
+    gathering.add(position, seat.yaw + yaw_jitter * draw_triangle(hash(own, salt_yaw)), height, character,
+                  Role::spectator, fans_at(gathering.plan.oval, {seat.position.x, seat.position.z}));
+}
+
 // Blocks are a section wide and up to `band_rows` rows deep: 150 to 400 people.
 void add_spectators(Gathering& gathering, std::size_t count) {
     constexpr std::uint32_t band_rows = 12;
@@ -194,15 +213,7 @@ void add_spectators(Gathering& gathering, std::size_t count) {
         std::sort(sorted.begin() + first[block], sorted.begin() + first[block + 1]);
         gathering.open_block();
         for (std::uint32_t i = first[block]; i < first[block + 1]; ++i) {
-            const Seat& seat = plan.seats[sorted[i]];
-            const std::uint64_t own = gathering.bits(salt_seat, sorted[i]);
-            const std::uint8_t character = gathering.draw_character(hash(own, salt_looks));
-            const float forward = gathering.cast[character].sits ? 0.0f : hips_depth - stander_depth;
-            const glm::vec3 facing(std::sin(seat.yaw), 0, std::cos(seat.yaw));
-            constexpr float yaw_jitter = 0.12f;  // [rad]
-            gathering.add(seat.position + forward * facing, seat.yaw + yaw_jitter * draw_triangle(hash(own, salt_yaw)),
-                          draw_height(hash(own, salt_height)), character, Role::spectator,
-                          fans_at(plan.oval, {seat.position.x, seat.position.z}));
+            take_seat(gathering, sorted[i]);
         }
         gathering.close_block();
     }

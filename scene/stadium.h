@@ -2,8 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <glm/glm.hpp>
 #include <vector>
+
+#include <glm/glm.hpp>
 
 #include "motion/pose.h"
 #include "scene/oval.h"
@@ -11,9 +12,8 @@
 namespace scene {
 
 struct Seat {
-    glm::vec3
-        position;  // [m] where the hips go, on the floor of the row: the seat's surface is person.h's seat_height above
-    float yaw;     // [rad] facing (sin yaw, 0, cos yaw), towards the pitch
+    glm::vec3 position;  // [m] under the hips, on the row's floor: the seat's surface is person.h's seat_height above
+    float yaw;           // [rad] facing (sin yaw, 0, cos yaw), towards the pitch
     std::uint16_t row, section;  // into StadiumPlan::rows; between spokes `section` and `section` + 1
 };
 
@@ -25,7 +25,7 @@ struct Spoke {
     glm::vec2 at(float offset) const { return foot + offset * outward; }
 };
 
-// One step of the stand: the tread from `offset` to `offset` + row_depth.
+// One step of the stand: a tread, 0.8 m deep, and the riser behind it.
 struct Row {
     float offset;  // [m] outward from the inner line to the tread's front edge, along the spokes
     float floor;   // [m] height of the tread

@@ -153,7 +153,7 @@ Color seat_color(std::size_t section, std::size_t row) {
 
 // A row's bench of shells: lip, surface, and the two faces of the back.
 void add_seats(Builder& builder, std::size_t section, std::size_t row) {
-    constexpr float lip = 0.12f, front = 0.22f, back = 0.18f,
+    constexpr float lip = 0.12f, front = 0.22f, back = 0.16f,
                     back_top = 0.8f;  // [m] around the hips and above the floor
     constexpr Along begin{0, aisle_width / 2}, end{1, -aisle_width / 2};
     const float hips = builder.plan.rows[row].offset + hips_depth, floor = builder.plan.rows[row].floor;

@@ -96,7 +96,7 @@ TEST(Seating, RowsAndSeatsAgree) {
 
 TEST(Seating, EverybodySeesTheTrackOverTheHeadInFront) {
     constexpr float eye_height = 1.2f, c_value = 0.06f;  // [m] the least that guides for safe stadiums accept
-    constexpr float focus = track_width / 2, hips = 0.58f;
+    constexpr float focus = track_width / 2, hips = 0.61f;
     for (const std::int64_t people : sizes) {
         const StadiumPlan plan = scene::plan_stadium(people);
         for (std::size_t r = 1; r < plan.rows.size(); ++r) {
