@@ -1,7 +1,6 @@
 // replay: a recorded run through a law again, to see what it would decide, or to prove that it decided so.
 #include "sfsm/replay.h"
 
-#include <CLI/CLI.hpp>
 #include <cerrno>
 #include <cstring>
 #include <exception>
@@ -12,6 +11,7 @@
 #include <string>
 
 #include "apps/output.h"
+#include "apps/program.h"
 #include "sfsm/controller.h"
 #include "sfsm/number_text.h"
 #include "sfsm/summary.h"
@@ -19,9 +19,6 @@
 #include "sfsm/trace.h"
 
 namespace {
-
-constexpr int exit_failure = 1;
-constexpr int exit_usage = 2;
 
 struct Options {
     std::string trace;
@@ -38,11 +35,10 @@ constexpr const char* examples = R"(Examples:
   replay out/stadium.csv --verify                       is every recorded decision reproduced to the bit?
 
 Replaying is open loop: each recorded time is taken for the time of the law's own decision.
-Exit codes: 0 done (reproduced), 1 failed (not reproduced), 2 usage.)";
+With --verify, failed is also what is not reproduced.)";
 
 void add_options(CLI::App& app, Options& options) {
-    app.set_version_flag("--version", "replay " GRANDSTAND_VERSION);
-    app.footer(examples);
+    apps::describe(app, examples);
     app.add_option("TRACE", options.trace, "Trace of a run, as stadium --trace writes it (required)");
     const std::span<const std::string_view> names = sfsm::law_names();
     const std::vector<std::string> laws(names.begin(), names.end());
@@ -53,18 +49,6 @@ void add_options(CLI::App& app, Options& options) {
     auto* summary = app.add_option("--summary", options.summary, "Write the summary as JSON (- = stdout, the default)");
     app.add_flag("--verify", options.verify, "Only check that the trace's law reproduces the recorded decisions")
         ->excludes(law, target, csv, summary);
-}
-
-// CLI11 may spread a message over lines; ours is one.
-std::string one_line(std::string text) {
-    while (!text.empty() && text.back() == '\n') text.pop_back();
-    for (char& c : text) c = c == '\n' ? ' ' : c;
-    return text;
-}
-
-int report(const std::string& message, int code) {
-    std::cerr << "replay: " << one_line(message) << '\n';
-    return code;
 }
 
 sfsm::Trace read(const std::string& path) {
@@ -81,7 +65,7 @@ const std::string& required(const sfsm::Trace& trace, const std::string& path, c
     throw std::runtime_error(path + ": found no setting '" + key + "', expected a line '# " + key + "=...'");
 }
 
-int verify(const std::string& path) {
+void verify(const std::string& path) {
     const sfsm::Trace trace = read(path);
     const std::string& state = required(trace, path, "state");
     if (state != "auto") {
@@ -99,7 +83,6 @@ int verify(const std::string& path) {
     }
     std::cout << path << ": all " << decisions.size() << " decisions of law " << trace.settings.at("law")
               << " reproduced to the bit\n";
-    return 0;
 }
 
 // The trace as the law would have had it: its decisions in place of the recorded ones.
@@ -118,7 +101,7 @@ void redecide(sfsm::Trace& trace, const Options& options) {
     trace.settings["version"] = GRANDSTAND_VERSION;
 }
 
-int replay(const Options& options) {
+void replay(const Options& options) {
     sfsm::Trace trace = read(options.trace);
     redecide(trace, options);
     const std::string summary_path = options.summary.empty() && options.csv != "-" ? "-" : options.summary;
@@ -135,7 +118,6 @@ int replay(const Options& options) {
         summary->stream() << sfsm::summary_json(sfsm::summarize(trace.rows), trace.settings);
         summary->commit();
     }
-    return 0;
 }
 
 // What CLI11 cannot see; throws std::invalid_argument.
@@ -153,18 +135,6 @@ int main(int argc, char** argv) {
     CLI::App app("Feeds a recorded run through a control law and writes what the law would decide.", "replay");
     Options options;
     add_options(app, options);
-    try {
-        app.parse(argc, argv);
-        check(options);
-    } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-        return report(std::string(error.what()) + " (see replay --help)", exit_usage);
-    } catch (const std::invalid_argument& error) {
-        return report(std::string(error.what()) + " (see replay --help)", exit_usage);
-    }
-    try {
-        return options.verify ? verify(options.trace) : replay(options);
-    } catch (const std::exception& error) {
-        return report(error.what(), exit_failure);
-    }
+    return apps::run_program(
+        app, argc, argv, [&] { check(options); }, [&] { options.verify ? verify(options.trace) : replay(options); });
 }

@@ -1,12 +1,11 @@
 // The roaming stadium: one loop from a measured time to the next decision.
 #include <csignal>
 #include <cstdio>
-#include <exception>
-#include <iostream>
 #include <memory>
 #include <optional>
 
 #include "apps/free_camera.h"
+#include "apps/program.h"
 #include "apps/progress.h"
 #include "apps/scene_clock.h"
 #include "apps/stadium_options.h"
@@ -253,13 +252,9 @@ void run(const StadiumOptions& options) {
 
 int main(int argc, char** argv) {
     std::signal(SIGINT, [](int) { apps::interrupted = 1; });
-    try {
-        apps::run(apps::parse_stadium_options(argc, argv));
-        return 0;
-    } catch (const apps::Exit& exit) {
-        return exit.code;
-    } catch (const std::exception& error) {
-        std::cerr << "stadium: " << error.what() << "\n";
-        return 1;
-    }
+    CLI::App app("A stadium of animated people, drawn as finely as the frame time allows.", "stadium");
+    apps::StadiumOptions options;
+    apps::add_stadium_options(app, options);
+    return apps::run_program(
+        app, argc, argv, [&] { check(options); }, [&] { apps::run(options); });
 }

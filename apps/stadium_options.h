@@ -1,13 +1,14 @@
 // The stadium program's command line.
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "sfsm/controller.h"
 #include "sfsm/decision.h"
 #include "sfsm/target.h"
 
@@ -17,7 +18,7 @@ struct StadiumOptions {
     std::int64_t people = 20000;  // [1, 1'000'000]
     std::vector<std::filesystem::path> characters;
     sfsm::TargetSchedule target = sfsm::TargetSchedule::parse("16.6");
-    std::string law;
+    std::string law = std::string(sfsm::law_names().front());
     std::optional<sfsm::State> state;       // empty: the law decides
     std::optional<double> splat_size;       // [px] of a fixed state 2
     std::optional<double> motion_distance;  // [m] of a fixed state 1 or 2
@@ -31,13 +32,10 @@ struct StadiumOptions {
     std::int64_t png_every = 0;                      // [frames] 0: none
 };
 
-// What the command line asks for besides a run.
-struct Exit {
-    int code;
-};
+// Adds the options to `app`; parsing fills `options`, which must stay where it is.
+void add_stadium_options(CLI::App& app, StadiumOptions& options);
 
-// Throws Exit after --help or --version has been printed, or after one line on stderr about what is wrong with the
-// arguments.
-StadiumOptions parse_stadium_options(int argc, char** argv);
+// The rules between options. Throws std::invalid_argument with one line.
+void check(const StadiumOptions& options);
 
 }  // namespace apps

@@ -154,7 +154,7 @@ TEST(StadiumProgram, SaysWhichFileItCannotReadOrWrite) {
     const std::string damaged = directory / "damaged.glb";
     std::ofstream(damaged) << "glTF, or so it says";
     const std::string trace = directory / "t.csv";
-    for (const std::string arguments :
+    for (const std::string& arguments :
          {"--character " + (directory / "missing.glb"), "--character " + damaged,
           "--camera " + (directory / "missing.json"), "--trace " + (directory / "no/such/place.csv"),
           "--png " + (directory / "no/such/place.png")}) {
