@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -21,26 +22,53 @@ namespace {
 using motion::Mesh;
 using motion::SurfacePoint;
 
-// Spreads the low 21 bits of `value` to every third bit.
-std::uint64_t every_third_bit(std::uint64_t value) {
-    value = (value | value << 32) & 0x001f00000000ffffu;
-    value = (value | value << 16) & 0x001f0000ff0000ffu;
-    value = (value | value << 8) & 0x100f00f00f00f00fu;
-    value = (value | value << 4) & 0x10c30c30c30c30c3u;
-    value = (value | value << 2) & 0x1249249249249249u;
-    return value;
+// A triangle while the surface is being ordered.
+struct Piece {
+    glm::vec3 center;
+    std::uint32_t triangle;
+    double area;
+};
+
+// Reorders `cell` (at least two pieces) so that its first part, whose count is returned, lies on one side along the
+// longest axis and has half of the area, as nearly as whole pieces allow. Neither part is empty. Linear time.
+std::size_t halve(std::span<Piece> cell) {
+    glm::vec3 low = cell[0].center, high = low;
+    double area = 0;
+    for (const Piece& piece : cell) {
+        low = glm::min(low, piece.center);
+        high = glm::max(high, piece.center);
+        area += piece.area;
+    }
+    const glm::vec3 size = high - low;
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const auto before = [axis](const Piece& a, const Piece& b) {
+        return a.center[axis] < b.center[axis] || (a.center[axis] == b.center[axis] && a.triangle < b.triangle);
+    };
+    // A selection by area: [0, first) is below the half, [last, size) above it.
+    std::size_t first = 0, last = cell.size();
+    double below = 0;
+    while (last - first > 1) {
+        const std::size_t middle = first + (last - first) / 2;
+        std::nth_element(cell.begin() + static_cast<std::ptrdiff_t>(first),
+                         cell.begin() + static_cast<std::ptrdiff_t>(middle),
+                         cell.begin() + static_cast<std::ptrdiff_t>(last), before);
+        double lower = 0;
+        for (std::size_t i = first; i < middle; ++i) lower += cell[i].area;
+        if (below + lower <= 0.5 * area) {
+            below += lower;
+            first = middle;
+        } else {
+            last = middle;
+        }
+    }
+    // The piece at `first` crosses the half: it goes where that leaves the smaller difference.
+    const bool take = below + 0.5 * cell[first].area < 0.5 * area;
+    return std::clamp<std::size_t>(first + (take ? 1 : 0), 1, cell.size() - 1);
 }
 
-std::uint64_t morton_code(const glm::vec3& unit) {
-    constexpr float steps = 2097151.0f;  // 2^21 - 1
-    std::uint64_t code = 0;
-    for (int axis = 0; axis < 3; ++axis)
-        code |= every_third_bit(static_cast<std::uint64_t>(std::clamp(unit[axis], 0.0f, 1.0f) * steps)) << axis;
-    return code;
-}
-
-// The surface as one line of length `area()`: triangles one after another along a space-filling curve, each as long as
-// its area, so that neighbours on the line are neighbours on the surface. Triangles without a finite area are left out.
+// The surface as one line of length `area()`: its triangles one after another, each as long as its area, in the order
+// of a tree that halves the area across the longest side of its cells. So the line's halves, quarters, eighths ... are
+// compact patches of the surface. Triangles without a finite area are left out.
 class SurfaceLine {
 public:
     SurfaceLine(const Mesh& mesh, const std::vector<glm::vec3>& positions) : mesh_(mesh), positions_(positions) {
@@ -48,7 +76,7 @@ public:
             const std::uint32_t triangle = static_cast<std::uint32_t>(i);
             if (area_of(triangle) > 0) triangles_.push_back(triangle);
         }
-        order_along_curve();
+        order_by_halving();
         ends_.reserve(triangles_.size());
         double end = 0;
         for (const std::uint32_t triangle : triangles_) ends_.push_back(end += area_of(triangle));
@@ -79,20 +107,22 @@ private:
         return std::isfinite(area) ? area : 0.0;
     }
 
-    void order_along_curve() {
-        std::vector<glm::vec3> centers;
-        for (const std::uint32_t triangle : triangles_)
-            centers.emplace_back((corner(triangle, 0) + corner(triangle, 1) + corner(triangle, 2)) / 3.0);
-        const motion::Bounds box = motion::bounds_of(centers);
-        const glm::vec3 size = box.size();
-        const float longest = std::max({size.x, size.y, size.z});
-        std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
-        for (std::size_t i = 0; i < centers.size(); ++i) {
-            const glm::vec3 unit = longest > 0.0f ? (centers[i] - box.min) / longest : glm::vec3(0.0f);
-            order.emplace_back(morton_code(unit), triangles_[i]);
+    void order_by_halving() {
+        std::vector<Piece> pieces;
+        for (const std::uint32_t triangle : triangles_) {
+            const glm::dvec3 center = (corner(triangle, 0) + corner(triangle, 1) + corner(triangle, 2)) / 3.0;
+            pieces.push_back({glm::vec3(center), triangle, area_of(triangle)});
         }
-        std::sort(order.begin(), order.end());
-        for (std::size_t i = 0; i < order.size(); ++i) triangles_[i] = order[i].second;
+        std::vector<std::span<Piece>> cells{pieces};
+        while (!cells.empty()) {
+            const std::span<Piece> cell = cells.back();
+            cells.pop_back();
+            if (cell.size() < 2) continue;
+            const std::size_t half = halve(cell);
+            cells.push_back(cell.first(half));
+            cells.push_back(cell.subspan(half));
+        }
+        for (std::size_t i = 0; i < pieces.size(); ++i) triangles_[i] = pieces[i].triangle;
     }
 
     // Sierpinski's curve through one triangle, `along` in [0, 1]: from the first end of the longest edge to its second,

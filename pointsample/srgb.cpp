@@ -37,11 +37,4 @@ std::uint8_t srgb_of_linear(float linear) {
     return static_cast<std::uint8_t>(std::upper_bound(border.begin(), border.end(), linear) - border.begin());
 }
 
-glm::u8vec4 multiply_srgb(glm::u8vec4 a, glm::u8vec4 b) {
-    glm::u8vec4 out;
-    for (int i = 0; i < 3; ++i) out[i] = srgb_of_linear(linear_of_srgb(a[i]) * linear_of_srgb(b[i]));
-    out.a = static_cast<std::uint8_t>((a.a * b.a + 127) / 255);
-    return out;
-}
-
 }  // namespace pointsample

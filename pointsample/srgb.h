@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <glm/glm.hpp>
-
 namespace pointsample {
 
 // Linear light in [0, 1] of an sRGB byte (IEC 61966-2-1).
@@ -11,8 +9,5 @@ float linear_of_srgb(std::uint8_t byte);
 
 // The sRGB byte nearest in code to `linear`; clamps, and NaN is black. srgb_of_linear(linear_of_srgb(b)) == b.
 std::uint8_t srgb_of_linear(float linear);
-
-// The product of two colours in linear light; alpha is multiplied as it is.
-glm::u8vec4 multiply_srgb(glm::u8vec4 a, glm::u8vec4 b);
 
 }  // namespace pointsample

@@ -16,9 +16,10 @@ namespace {
 
 constexpr std::size_t direction_count = 96;
 
-// Rays start this share of the mesh's diagonal off the surface: well above float's rounding of positions (1e-7), well
-// below the gap between a body and its clothes.
-constexpr float offset_share = 1e-5f;
+// Embree sees the mesh scaled to a diagonal of 1, as products of very large or small coordinates leave float's range.
+// Rays start this far off the surface: well above float's rounding of positions (1e-7), well below the gap between a
+// body and its clothes.
+constexpr float offset = 1e-5f;
 
 using Directions = std::array<glm::vec3, direction_count>;
 
@@ -44,7 +45,8 @@ bool is_finite(const glm::vec3& v) {
 struct Visibility::Scene {
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
-    float offset = 0;  // [units]
+    glm::vec3 center{0.0f};
+    float scale = 1.0f;
 
     Scene() : device(rtcNewDevice(nullptr)) {
         if (device == nullptr)
@@ -59,6 +61,8 @@ struct Visibility::Scene {
     }
     Scene(const Scene&) = delete;
     Scene& operator=(const Scene&) = delete;
+
+    glm::vec3 scaled(const glm::vec3& point) const { return (point - center) * scale; }
 
     void* new_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::size_t stride,
                      std::size_t count) {
@@ -84,10 +88,15 @@ Visibility::Visibility(std::span<const glm::vec3> positions, std::span<const std
     }
     if (corners.empty()) return;  // nothing is in anyone's way
 
+    const motion::Bounds bounds = motion::bounds_of(positions);
+    const double diagonal = glm::length(glm::dvec3(bounds.size()));
+    scene_->center = bounds.center();
+    if (diagonal > 0 && std::isfinite(diagonal)) scene_->scale = static_cast<float>(1 / diagonal);
+
     const RTCGeometry geometry = rtcNewGeometry(scene_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* vertices = static_cast<glm::vec3*>(
         scene_->new_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), positions.size()));
-    std::copy(positions.begin(), positions.end(), vertices);
+    for (std::size_t i = 0; i < positions.size(); ++i) vertices[i] = scene_->scaled(positions[i]);
     auto* triangles = static_cast<std::uint32_t*>(scene_->new_buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3,
                                                                      3 * sizeof(std::uint32_t), corners.size() / 3));
     std::copy(corners.begin(), corners.end(), triangles);
@@ -95,7 +104,6 @@ Visibility::Visibility(std::span<const glm::vec3> positions, std::span<const std
     rtcAttachGeometry(scene_->scene, geometry);
     rtcReleaseGeometry(geometry);
     rtcCommitScene(scene_->scene);
-    scene_->offset = offset_share * glm::length(motion::bounds_of(positions).size());
 }
 
 Visibility::~Visibility() = default;
@@ -107,9 +115,10 @@ bool Visibility::sees_outside(glm::vec3 point, glm::vec3 normal, bool two_sided)
     const float a = -1.0f / (sign + normal.z), b = normal.x * normal.y * a;
     const glm::vec3 tangent(1.0f + sign * normal.x * normal.x * a, sign * b, -sign * normal.x);
     const glm::vec3 bitangent(b, sign + normal.y * normal.y * a, -normal.y);
+    const glm::vec3 start = scene_->scaled(point);
     for (int side = 0; side < (two_sided ? 2 : 1); ++side) {
         const glm::vec3 pole = side == 0 ? normal : -normal;
-        const glm::vec3 origin = point + scene_->offset * pole;
+        const glm::vec3 origin = start + offset * pole;
         for (const glm::vec3& local : directions) {
             const glm::vec3 direction = local.x * tangent + local.y * bitangent + local.z * pole;
             RTCRay ray{};

@@ -1,0 +1,350 @@
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <stdexcept>
+
+#include "pointsample/point_model.h"
+#include "pointsample/visibility.h"
+#include "tests/pointsample/shapes.h"
+
+namespace {
+
+using pointsample::PointModel;
+using pointsample::SampleOptions;
+
+PointModel sample(const motion::Mesh& mesh, std::size_t count, bool visible_only = false, std::uint64_t seed = 1) {
+    return pointsample::sample(mesh, mesh.positions, mesh.normals, {count, seed, visible_only});
+}
+
+template <typename T>
+bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+// Independent uniform points on the unit sphere.
+std::vector<glm::vec3> random_on_sphere(std::size_t count, std::uint64_t seed) {
+    std::mt19937_64 engine(seed);
+    const auto unit = [&] { return static_cast<double>(engine() >> 11) * 0x1p-53; };
+    std::vector<glm::vec3> points;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double z = 2 * unit() - 1, angle = 2 * std::numbers::pi * unit(), radius = std::sqrt(1 - z * z);
+        points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+    }
+    return points;
+}
+
+// Mean distance of the first n points to their nearest among them.
+double mean_nearest(const std::vector<glm::vec3>& points, std::size_t n) {
+    double sum = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        float nearest = std::numeric_limits<float>::max();
+        for (std::size_t j = 0; j < n; ++j)
+            if (j != i) nearest = std::min(nearest, glm::distance(points[i], points[j]));
+        sum += nearest;
+    }
+    return sum / static_cast<double>(n);
+}
+
+// Distance to the nearest of the first n points from whichever of `probes` is farthest off.
+double covering_radius(const std::vector<glm::vec3>& points, std::size_t n, const std::vector<glm::vec3>& probes) {
+    float farthest = 0;
+    for (const glm::vec3& probe : probes) {
+        float nearest = std::numeric_limits<float>::max();
+        for (std::size_t i = 0; i < n; ++i) nearest = std::min(nearest, glm::distance(probe, points[i]));
+        farthest = std::max(farthest, nearest);
+    }
+    return farthest;
+}
+
+// Chi-squared per degree of freedom of the counts in 8 x 16 patches of equal area on the sphere; random points give 1.
+double patch_chi_squared(const std::vector<glm::vec3>& points, std::size_t n) {
+    constexpr int bands = 8, sectors = 16;
+    std::vector<int> counts(bands * sectors);
+    for (std::size_t i = 0; i < n; ++i) {
+        const glm::vec3 p = glm::normalize(points[i]);
+        const double turn = std::atan2(p.y, p.x) / (2 * std::numbers::pi) + 0.5;
+        const int band = std::min(bands - 1, static_cast<int>((p.z + 1) / 2 * bands));
+        counts[static_cast<std::size_t>(band * sectors + std::min(sectors - 1, static_cast<int>(turn * sectors)))]++;
+    }
+    const double expected = static_cast<double>(n) / (bands * sectors);
+    double sum = 0;
+    for (const int count : counts) sum += (count - expected) * (count - expected) / expected;
+    return sum / (bands * sectors - 1);
+}
+
+TEST(Sampler, GivesExactlyTheCountAskedFor) {
+    const motion::Mesh sphere = tests::make_sphere(1, 3);
+    for (const std::size_t count : {1u, 2u, 63u, 1024u, 1025u, 16384u, 40001u}) {
+        for (const bool visible_only : {false, true}) {
+            const PointModel model = sample(sphere, count, visible_only);
+            EXPECT_EQ(model.size(), count);
+            for (const std::size_t size : {model.surface.size(), model.normals.size(), model.colors.size(),
+                                           model.tints.size(), model.joints.size(), model.weights.size()})
+                EXPECT_EQ(size, count);
+        }
+    }
+}
+
+TEST(Sampler, ASeedNamesOneSequenceOnAnyThreadCount) {
+    motion::Mesh nested = tests::make_sphere(1, 3);
+    tests::append(nested, tests::make_sphere(0.5f, 2));
+    const auto run = [&](std::size_t threads, std::uint64_t seed) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        return sample(nested, 5000, true, seed);
+    };
+    const PointModel one = run(1, 7), four = run(4, 7), other = run(4, 8);
+    EXPECT_TRUE(same_bits(one.positions, four.positions));
+    EXPECT_TRUE(same_bits(one.normals, four.normals));
+    EXPECT_TRUE(same_bits(one.colors, four.colors));
+    EXPECT_EQ(one.hidden_removed, four.hidden_removed);
+    EXPECT_FALSE(same_bits(one.positions, other.positions));
+}
+
+TEST(Sampler, FewerPointsAreThePrefixOfMore) {
+    motion::Mesh nested = tests::make_sphere(1, 3);
+    tests::append(nested, tests::make_sphere(0.5f, 2));
+    for (const bool visible_only : {false, true}) {
+        const PointModel all = sample(nested, 20000, visible_only);
+        for (const std::size_t count : {1u, 10u, 777u, 4096u}) {
+            PointModel prefix = sample(nested, count, visible_only);
+            const std::vector<glm::vec3> start(all.positions.begin(), all.positions.begin() + static_cast<long>(count));
+            EXPECT_TRUE(same_bits(prefix.positions, start)) << count;
+        }
+    }
+}
+
+TEST(Sampler, PointsLieOnTheirTriangles) {
+    const motion::Mesh sphere = tests::make_sphere(2, 2);
+    const PointModel model = sample(sphere, 5000);
+    for (std::size_t i = 0; i < model.size(); ++i) {
+        const auto [triangle, u, v] = model.surface[i];
+        ASSERT_LT(triangle, sphere.triangle_count());
+        ASSERT_GE(u, 0.0f);
+        ASSERT_GE(v, 0.0f);
+        ASSERT_LE(u + v, 1.0f);
+        const auto corner = [&](std::size_t k) {
+            return glm::dvec3(sphere.positions[sphere.indices[3 * triangle + k]]);
+        };
+        const glm::dvec3 expected =
+            corner(0) + (corner(1) - corner(0)) * double(u) + (corner(2) - corner(0)) * double(v);
+        ASSERT_LT(glm::distance(glm::dvec3(model.positions[i]), expected), 1e-6);
+        ASSERT_GT(glm::dot(model.normals[i], glm::normalize(model.positions[i])), 0.999f);
+        ASSERT_NEAR(glm::length(model.normals[i]), 1.0f, 1e-6f);
+    }
+}
+
+TEST(Sampler, AreaIsTheSurfaces) {
+    EXPECT_FLOAT_EQ(sample(tests::make_cube(), 1).area, 6.0f);
+    EXPECT_NEAR(sample(tests::make_sphere(2, 6), 1).area, 16 * std::numbers::pi, 0.02);  // the polyhedron's is less
+}
+
+TEST(Sampler, EqualAreasGetEqualCounts) {
+    constexpr double random_is = 1.0, limit = 0.35;
+    const motion::Mesh sphere = tests::make_sphere(1, 6);
+    for (const std::uint64_t seed : {1u, 2u, 3u}) {
+        const PointModel model = sample(sphere, 16384, false, seed);
+        for (const std::size_t n : {4096u, 6000u, 16384u}) EXPECT_LT(patch_chi_squared(model.positions, n), limit) << n;
+    }
+    // The measure itself tells random points from even ones.
+    EXPECT_NEAR(patch_chi_squared(random_on_sphere(16384, 1), 16384), random_is, 0.4);
+}
+
+TEST(Sampler, FacesOfACubeShareEveryPrefix) {
+    const PointModel model = sample(tests::make_cube(), 6000);
+    std::vector<int> counts(6);
+    for (std::size_t n = 0; n < model.size(); ++n) {
+        ++counts[model.surface[n].triangle / 2];
+        // Each triangle is one stretch of the line, on which the golden sequence is off by a few points at most
+        // (its discrepancy grows as log n / n); random points would be off by sqrt(n / 6) = 30 in the end.
+        for (const int count : counts) ASSERT_NEAR(count, static_cast<double>(n + 1) / 6, 6) << n;
+    }
+}
+
+TEST(Sampler, OneHugeTriangleAmongTinyOnesGetsItsShare) {
+    motion::Mesh mesh = tests::make_triangle({0, 0, 0}, {10, 0, 0}, {0, 10, 0});  // area 50
+    for (int i = 0; i < 10000; ++i) {
+        const float x = 20 + 0.1f * static_cast<float>(i % 100), y = 0.1f * static_cast<float>(i / 100);
+        tests::append(mesh, tests::make_triangle({x, y, 0}, {x + 0.1f, y, 0}, {x, y + 0.1f, 0}));  // 10000 * 0.005 = 50
+    }
+    const PointModel model = sample(mesh, 4000);
+    double on_huge = 0;
+    for (std::size_t n = 0; n < model.size(); ++n) {
+        on_huge += model.surface[n].triangle == 0;
+        ASSERT_NEAR(on_huge, static_cast<double>(n + 1) / 2, 5) << n;
+    }
+}
+
+TEST(Sampler, EveryPrefixIsMoreEvenThanRandom) {
+    const PointModel model = sample(tests::make_sphere(1, 6), 2048);
+    const std::vector<glm::vec3> probes = random_on_sphere(2000, 99);
+    for (const std::size_t n : {64u, 100u, 256u, 500u, 1024u, 2048u}) {
+        double random_nearest = 0, random_covering = 0;
+        for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+            const std::vector<glm::vec3> random = random_on_sphere(n, seed);
+            random_nearest += mean_nearest(random, n) / 3;
+            random_covering += covering_radius(random, n, probes) / 3;
+        }
+        EXPECT_GT(mean_nearest(model.positions, n), 1.1 * random_nearest) << n;
+        EXPECT_LT(covering_radius(model.positions, n, probes), 0.9 * random_covering) << n;
+    }
+}
+
+TEST(Sampler, MomentsOfTheSphereAreItsClosedForms) {
+    const PointModel model = sample(tests::make_sphere(1, 6), 10000);
+    glm::dvec3 mean(0), square(0);
+    for (const glm::vec3& p : model.positions) {
+        mean += glm::dvec3(p) / 10000.0;
+        square += glm::dvec3(p) * glm::dvec3(p) / 10000.0;
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_NEAR(mean[axis], 0, 0.002);          // random: 0.0058 standard deviation
+        EXPECT_NEAR(square[axis], 1.0 / 3, 0.002);  // random: 0.0030
+    }
+}
+
+TEST(Sampler, HiddenPointsAreReplaced) {
+    motion::Mesh nested = tests::make_sphere(1, 4);
+    tests::append(nested, tests::make_sphere(0.5f, 3));
+    const PointModel all = sample(nested, 5000, false), visible = sample(nested, 5000, true);
+    const auto inside = [](const PointModel& model) {
+        return std::count_if(model.positions.begin(), model.positions.end(),
+                             [](const glm::vec3& p) { return glm::length(p) < 0.75f; });
+    };
+    EXPECT_NEAR(static_cast<double>(inside(all)), 1000, 20);  // a fifth of the area
+    EXPECT_EQ(inside(visible), 0);
+    EXPECT_EQ(visible.size(), 5000u);
+    EXPECT_NEAR(static_cast<double>(visible.hidden_removed), 1250, 25);  // 5000 of 6250 candidates are visible
+    EXPECT_EQ(all.hidden_removed, 0u);
+}
+
+TEST(Sampler, RefusesWhatNobodyCanSee) {
+    motion::Mesh turned = tests::make_sphere(1, 2);  // faces its own inside
+    for (glm::vec3& normal : turned.normals) normal = -normal;
+    EXPECT_THROW(sample(turned, 100, true), std::runtime_error);
+    EXPECT_NO_THROW(sample(turned, 100, false));
+    turned.double_sided = true;
+    EXPECT_NO_THROW(sample(turned, 100, true));
+}
+
+TEST(Sampler, TrianglesWithoutAnAreaGetNoPoints) {
+    const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+    motion::Mesh mesh = tests::make_triangle({nan, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    tests::append(mesh, tests::make_triangle({infinity, 0, 0}, {1, 0, 0}, {0, 1, 0}));
+    tests::append(mesh, tests::make_triangle({0, 0, 0}, {1, 1, 1}, {2, 2, 2}));
+    tests::append(mesh, tests::make_triangle({3, 3, 3}, {3, 3, 3}, {3, 3, 3}));
+    EXPECT_THROW(sample(mesh, 10), std::runtime_error);
+    EXPECT_THROW(sample(motion::Mesh{}, 10), std::runtime_error);
+    tests::append(mesh, tests::make_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}));
+    for (const bool visible_only : {false, true}) {
+        const PointModel model = sample(mesh, 500, visible_only);
+        EXPECT_EQ(model.size(), 500u);
+        for (const motion::SurfacePoint& point : model.surface) ASSERT_EQ(point.triangle, 4u);
+    }
+}
+
+TEST(Sampler, TinyAndHugeSurfacesWorkAlike) {
+    for (const float size : {1e-15f, 1e15f}) {
+        const motion::Mesh sphere = tests::make_sphere(size, 3);
+        const PointModel model = sample(sphere, 1000, true);
+        EXPECT_EQ(model.hidden_removed, 0u);
+        for (const glm::vec3& normal : model.normals) ASSERT_NEAR(glm::length(normal), 1.0f, 1e-5f);
+    }
+}
+
+TEST(Sampler, InfluencesAreTheCornersBlended) {
+    motion::Mesh mesh = tests::make_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    mesh.joints = {{1, 2, 0, 0}, {2, 3, 0, 0}, {4, 5, 6, 7}};
+    mesh.weights = {{0.75f, 0.25f, 0, 0}, {0.5f, 0.5f, 0, 0}, {0.7f, 0.1f, 0.1f, 0.1f}};
+    const PointModel model = sample(mesh, 300);
+    for (std::size_t i = 0; i < model.size(); ++i) {
+        const float u = model.surface[i].u, v = model.surface[i].v, w = 1 - u - v;
+        std::vector<std::pair<float, int>> all{
+            {0.75f * w, 1}, {0.25f * w + 0.5f * u, 2}, {0.5f * u, 3}, {0.7f * v, 4}, {0.1f * v, 5}, {0.1f * v, 6},
+            {0.1f * v, 7}};
+        std::stable_sort(all.begin(), all.end(), [](auto& a, auto& b) { return a.first > b.first; });
+        const float sum = all[0].first + all[1].first + all[2].first + all[3].first;
+        for (int k = 0; k < 4; ++k)
+            ASSERT_NEAR(model.weights[i][k], all[static_cast<std::size_t>(k)].first / sum, 1e-5f);
+        ASSERT_EQ(model.joints[i][0], all[0].second);
+    }
+}
+
+TEST(Sampler, TintsAreTheNearestCorners) {
+    motion::Mesh mesh = tests::make_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    mesh.tints = {motion::Tint::skin, motion::Tint::hair, motion::Tint::shirt};
+    const PointModel model = sample(mesh, 300);
+    for (std::size_t i = 0; i < model.size(); ++i) {
+        const float u = model.surface[i].u, v = model.surface[i].v, w = 1 - u - v;
+        const motion::Tint expected = w > u && w > v ? mesh.tints[0] : u > v ? mesh.tints[1] : mesh.tints[2];
+        ASSERT_EQ(model.tints[i], expected);
+    }
+}
+
+TEST(Sampler, ColorsAreTextureTimesVertexInLinearLight) {
+    motion::Mesh mesh = tests::make_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    mesh.textures.push_back({2, 1, {{0, 10, 255, 255}, {255, 10, 0, 255}}});
+    mesh.texture_ids.assign(3, 0);
+    const auto color_at = [&](float u) {
+        mesh.uvs.assign(3, glm::vec2(u, 0.3f));
+        return sample(mesh, 1).colors[0];
+    };
+    constexpr int half_light = 188;                            // sRGB's code for half of white's light
+    EXPECT_EQ(color_at(0.25f), glm::u8vec4(0, 10, 255, 255));  // a texel's centre is the texel
+    EXPECT_EQ(color_at(0.75f), glm::u8vec4(255, 10, 0, 255));
+    EXPECT_EQ(color_at(0.5f), glm::u8vec4(half_light, 10, half_light, 255));
+    EXPECT_EQ(color_at(0.0f), glm::u8vec4(half_light, 10, half_light, 255));  // wraps around
+    EXPECT_EQ(color_at(-6.75f), glm::u8vec4(0, 10, 255, 255));
+    EXPECT_EQ(color_at(7.75f), glm::u8vec4(255, 10, 0, 255));
+    mesh.colors.assign(3, glm::u8vec4(half_light, 255, 255, 255));
+    EXPECT_NEAR(color_at(0.75f).r, half_light, 1);
+}
+
+TEST(Sampler, ProgressOnlyRisesAndEndsAtOne) {
+    const motion::Mesh sphere = tests::make_sphere(1, 2);
+    double last = 0;
+    pointsample::sample(sphere, sphere.positions, sphere.normals, {100000, 1, false}, [&](double fraction) {
+        EXPECT_GT(fraction, last);
+        last = fraction;
+    });
+    EXPECT_EQ(last, 1.0);
+}
+
+TEST(Visibility, EndsAtAClosedSurface) {
+    const motion::Mesh sphere = tests::make_sphere(1, 3);
+    const pointsample::Visibility visibility(sphere.positions, sphere.indices);
+    for (const glm::vec3& direction : random_on_sphere(200, 5)) {
+        EXPECT_FALSE(visibility.sees_outside(0.9f * direction, direction, false));
+        EXPECT_FALSE(visibility.sees_outside(glm::vec3(0), direction, true));
+        EXPECT_TRUE(visibility.sees_outside(1.1f * direction, direction, false));
+        EXPECT_TRUE(visibility.sees_outside(1.1f * direction, -direction, true));
+    }
+}
+
+TEST(Visibility, FindsAHoleOfFivePercentOfTheSky) {
+    motion::Mesh cup = tests::make_sphere(1, 4);
+    std::vector<std::uint32_t> kept;
+    for (std::size_t i = 0; i < cup.indices.size(); i += 3) {
+        const glm::vec3 center =
+            (cup.positions[cup.indices[i]] + cup.positions[cup.indices[i + 1]] + cup.positions[cup.indices[i + 2]]) /
+            3.0f;
+        if (center.z < 0.9f) kept.insert(kept.end(), {cup.indices[i], cup.indices[i + 1], cup.indices[i + 2]});
+    }
+    const pointsample::Visibility visibility(cup.positions, kept);
+    EXPECT_TRUE(visibility.sees_outside({0, 0, 0}, {0, 0, 1}, false));
+    EXPECT_TRUE(visibility.sees_outside({0, 0, -0.99f}, {0, 0, 1}, false));
+    EXPECT_FALSE(visibility.sees_outside({0, 0, 0}, {0, 0, -1}, false));
+    EXPECT_TRUE(visibility.sees_outside({0, 0, 0}, {0, 0, -1}, true));
+}
+
+TEST(Visibility, NothingHidesNothing) {
+    const pointsample::Visibility visibility({}, {});
+    EXPECT_TRUE(visibility.sees_outside({0, 0, 0}, {0, 0, 1}, false));
+}
+
+}  // namespace
