@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "scene/random.h"
 #include "tests/scene/spacing.h"
 
 namespace {
@@ -209,6 +210,45 @@ TEST_P(Structure, EverySeatIsOnATread) {
         }
         ASSERT_TRUE(supported) << "seat " << s;
     }
+}
+
+// Whether the triangle a, b, c cuts the segment from `eye` to `target`, or lies at its end.
+bool cuts(glm::vec3 eye, glm::vec3 target, glm::vec3 a, glm::vec3 b, glm::vec3 c) {
+    constexpr float end = 1.0001f;
+    const glm::vec3 along = target - eye, ab = b - a, ac = c - a, p = glm::cross(along, ac);
+    const float determinant = glm::dot(ab, p);
+    if (std::abs(determinant) < 1e-12f) return false;
+    const glm::vec3 from = eye - a, q = glm::cross(from, ab);
+    const float u = glm::dot(from, p) / determinant, v = glm::dot(along, q) / determinant;
+    const float t = glm::dot(ac, q) / determinant;
+    return u >= 0 && v >= 0 && u + v <= 1 && t > 0 && t < end;
+}
+
+TEST_P(Structure, NobodySeesTheBackOfASurface) {
+    constexpr std::size_t tried = 1500;  // triangles a view
+    constexpr double tolerated = 0.005;  // of those seen: the open ends of benches, from the aisles
+    const float far = plan.oval.half_straight + plan.oval.radius + plan.outer_offset + 60;
+    const glm::vec3 eyes[] = {{3, 1.7f, 5}, {-40, 30, 12}, {far, 1.7f, 20}, {-50, 25, far}, {0, far, far}};
+    std::size_t seen = 0, backs = 0;
+    std::uint64_t bits = 1;
+    for (const glm::vec3& eye : eyes) {
+        for (std::size_t i = 0; i < tried; ++i) {
+            bits = scene::mix(bits);
+            const std::size_t t = scene::below(bits, static_cast<std::uint32_t>(triangle_count()));
+            const glm::vec3 middle = (corner(t, 0).position + corner(t, 1).position + corner(t, 2).position) / 3.0f;
+            bool hidden = false;  // by what is drawn: faces towards the eye
+            for (std::size_t other = 0; other < triangle_count() && !hidden; ++other) {
+                const glm::vec3 a = corner(other, 0).position;
+                if (other == t || glm::dot(eye - a, corner(other, 0).normal) < 0) continue;
+                hidden = cuts(eye, middle, a, corner(other, 1).position, corner(other, 2).position);
+            }
+            if (hidden) continue;
+            ++seen;
+            backs += glm::dot(eye - middle, corner(t, 0).normal) < 0;
+        }
+    }
+    EXPECT_GT(seen, tried / 2);
+    EXPECT_LE(static_cast<double>(backs), tolerated * static_cast<double>(seen)) << backs << " of " << seen;
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, Structure, testing::Values(1, 12000, 20000, 1'000'000),
