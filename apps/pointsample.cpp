@@ -57,7 +57,9 @@ void add_options(CLI::App& app, Options& options) {
     app.add_option("--out", options.output, "The points as PLY (- = stdout)")->required();
     app.add_option("--pose", options.pose, "CLIP@SECONDS, the clip by name or index; default: the rest pose");
     app.add_flag("--visible-only", options.visible_only, "Replace points that cannot be seen from outside");
-    app.add_option("--seed", options.seed, "Another seed, other points")->capture_default_str();
+    app.add_option("--seed", options.seed, "Another seed, other points")
+        ->check(CLI::NonNegativeNumber)  // a number of its type would wrap around
+        ->capture_default_str();
     app.add_option("--stats", options.stats, "Write what was found and done as JSON (- = stdout)");
 }
 

@@ -23,7 +23,7 @@ struct PointModel {
     std::vector<motion::Tint> tints;
     std::vector<glm::u16vec4> joints;           // the four heaviest of the triangle's
     std::vector<glm::vec4> weights;             // >= 0, sum 1
-    float area = 0;                             // of the surface sampled [units^2]
+    float area = 0;                             // of all triangles, hidden ones too [units^2]
     std::size_t hidden_removed = 0;             // candidates that no ray from outside could see
 
     std::size_t size() const { return positions.size(); }
@@ -35,8 +35,10 @@ struct SampleOptions {
     bool visible_only = true;   // drop points that cannot be seen from outside, and put others in their place
 };
 
-// Area-uniform points on the mesh in the given posed geometry (motion::skin's outputs). The same bits everywhere.
-// Throws std::runtime_error if no triangle has an area, or nothing of it is visible.
+// Area-uniform points on the mesh in the given posed geometry (motion::skin's outputs). The same bits on every run and
+// thread count; n points are the first n of any larger number. Triangles without a finite area get none. `progress`
+// gets rising fractions, 1 in the end. Throws std::runtime_error if no triangle has an area, or less than a thousandth
+// of it is visible.
 PointModel sample(const motion::Mesh& mesh, const std::vector<glm::vec3>& positions,
                   const std::vector<glm::vec3>& normals, const SampleOptions& options,
                   const std::function<void(double)>& progress = {});

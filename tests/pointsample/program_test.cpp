@@ -1,0 +1,130 @@
+// The pointsample program as its users call it: arguments, exit codes, files.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "tests/pointsample/gltf_builder.h"
+
+namespace {
+
+using tests::json;
+namespace fs = std::filesystem;
+
+std::string read(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class Program : public testing::Test {
+protected:
+    // Runs it in the folder; returns the exit code.
+    int run(const std::string& arguments) {
+        const std::string command =
+            "cd " + (folder_ / "").string() + " && " GRANDSTAND_BIN "/pointsample " + arguments + " >stdout 2>stderr";
+        const int status = std::system(command.c_str());
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+
+    // One line that says what was found and what was expected, and no new file.
+    void expect_refusal(const std::string& arguments, int code) {
+        EXPECT_EQ(run(arguments), code) << arguments;
+        const std::string said = read(folder_ / "stderr");
+        EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+        EXPECT_EQ(said.rfind("pointsample: ", 0), 0u) << said;
+        EXPECT_FALSE(fs::exists(folder_ / "out.ply")) << arguments;
+        EXPECT_FALSE(fs::exists(folder_ / "stats.json")) << arguments;
+    }
+
+    void SetUp() override {
+        folder_.write("square.glb", tests::make_square().glb());
+        folder_.write("everything.glb", tests::make_everything().glb());
+        folder_.write("damaged.glb", tests::make_square().glb().substr(0, 300));
+    }
+
+    tests::TemporaryFolder folder_;
+};
+
+TEST_F(Program, WritesThePointsAskedFor) {
+    ASSERT_EQ(run("square.glb --points 1000 --out out.ply --stats stats.json --visible-only"), 0)
+        << read(folder_ / "stderr");
+    const std::string ply = read(folder_ / "out.ply");
+    const std::string header = ply.substr(0, ply.find("end_header\n") + 11);
+    EXPECT_EQ(header.rfind("ply\nformat binary_little_endian 1.0\nelement vertex 1000\nproperty float x\n", 0), 0u);
+    constexpr std::size_t record = 6 * 4 + 3;
+    ASSERT_EQ(ply.size(), header.size() + 1000 * record);
+    for (std::size_t i = 0; i < 1000; ++i) {
+        float values[6];
+        std::memcpy(values, ply.data() + header.size() + i * record, sizeof values);
+        for (int axis = 0; axis < 2; ++axis) {
+            ASSERT_GE(values[axis], 0.0f);
+            ASSERT_LE(values[axis], 1.0f);
+        }
+        ASSERT_EQ(values[2], 0.0f);
+        ASSERT_EQ(values[5], 1.0f);
+    }
+    const json stats = json::parse(read(folder_ / "stats.json"));
+    EXPECT_EQ(stats["triangles"], 2);
+    EXPECT_EQ(stats["vertices"], 4);
+    EXPECT_EQ(stats["area"], 1.0);
+    EXPECT_EQ(stats["bounds_min"], json({0.0, 0.0, 0.0}));
+    EXPECT_EQ(stats["bounds_max"], json({1.0, 1.0, 0.0}));
+    EXPECT_EQ(stats["points"], 1000);
+    EXPECT_EQ(stats["hidden_removed"], 0);
+    EXPECT_GT(stats["seconds"], 0.0);
+    EXPECT_GT(stats["peak_mb"], 1.0);
+}
+
+TEST_F(Program, TheSameArgumentsGiveTheSameBytes) {
+    ASSERT_EQ(run("everything.glb --points 500 --out a.ply --visible-only"), 0);
+    ASSERT_EQ(run("everything.glb --points 500 --out b.ply --visible-only"), 0);
+    ASSERT_EQ(run("everything.glb --points 500 --out c.ply --visible-only --seed 2"), 0);
+    EXPECT_EQ(read(folder_ / "a.ply"), read(folder_ / "b.ply"));
+    EXPECT_NE(read(folder_ / "a.ply"), read(folder_ / "c.ply"));
+    ASSERT_EQ(run("everything.glb --points 500 --out - --visible-only"), 0);
+    EXPECT_EQ(read(folder_ / "a.ply"), read(folder_ / "stdout"));
+}
+
+TEST_F(Program, PosesAreTakenByNameOrIndex) {
+    for (const char* clip : {"wag", "0"}) {
+        ASSERT_EQ(run("everything.glb --points 5 --out out.ply --stats - --pose " + std::string(clip) + "@0.5"), 0);
+        const json stats = json::parse(read(folder_ / "stdout"));
+        EXPECT_EQ(stats["bounds_max"][1], 4.0);  // vertex 3 at 1 hangs on the tip, which is three up
+        EXPECT_EQ(stats["bounds_max"][2], 4.0);  // the whole morph target
+    }
+}
+
+TEST_F(Program, RefusesWrongUsageWithTwo) {
+    for (const char* arguments :
+         {"", "square.glb", "square.glb --points 5", "square.glb --out out.ply", "square.glb --points 0 --out out.ply",
+          "square.glb --points -1 --out out.ply", "square.glb --points 1e3 --out out.ply",
+          "square.glb --points 100000001 --out out.ply", "square.glb --points x --out out.ply",
+          "square.glb --points 5 --out out.ply --nonsense", "square.glb --points 5 --out out.ply --pose wag",
+          "square.glb --points 5 --out out.ply --pose wag@", "square.glb --points 5 --out out.ply --pose wag@nan",
+          "square.glb --points 5 --out out.ply --pose wag@1x", "square.glb --points 5 --out - --stats -",
+          "square.glb --points 5 --out out.ply --seed -3"})
+        expect_refusal(arguments, 2);
+}
+
+TEST_F(Program, RefusesBadFilesWithOne) {
+    expect_refusal("missing.glb --points 5 --out out.ply --stats stats.json", 1);
+    expect_refusal("damaged.glb --points 5 --out out.ply --stats stats.json", 1);
+    expect_refusal("square.glb --points 5 --out out.ply --stats nowhere/stats.json", 1);
+    expect_refusal("square.glb --points 5 --out nowhere/out.ply --stats stats.json", 1);
+    expect_refusal("square.glb --points 5 --out out.ply --pose wag@1", 1);
+    expect_refusal("everything.glb --points 5 --out out.ply --pose 7@1", 1);
+}
+
+TEST_F(Program, ExplainsItself) {
+    ASSERT_EQ(run("--help"), 0);
+    EXPECT_NE(read(folder_ / "stdout").find("Examples:"), std::string::npos);
+    ASSERT_EQ(run("--version"), 0);
+    EXPECT_EQ(read(folder_ / "stdout").rfind("pointsample ", 0), 0u);
+}
+
+}  // namespace
