@@ -204,11 +204,16 @@ private:
 
     std::string title() const {
         const sfsm::TraceRow& row = rows_.back();
+        const sfsm::Decision& decision = row.decision;
         char text[200];
-        std::snprintf(text, sizeof text, "Grandstand  %.1f / %.1f ms  state %d  D %.0f m  S %.1f px  %lld people%s",
-                      last_ms_, row.target_ms, static_cast<int>(row.decision.state), row.decision.motion_distance,
-                      row.decision.splat_size, static_cast<long long>(row.work.people),
-                      clock_.paused ? "  paused" : "");
+        int length =
+            std::snprintf(text, sizeof text, "Grandstand  %.1f / %.1f ms  %lld people  state %d", last_ms_,
+                          row.target_ms, static_cast<long long>(row.work.people), static_cast<int>(decision.state));
+        if (decision.state != sfsm::State::original)
+            length += std::snprintf(text + length, sizeof text - length, "  D %.0f m", decision.motion_distance);
+        if (decision.state == sfsm::State::points)
+            length += std::snprintf(text + length, sizeof text - length, "  S %.1f px", decision.splat_size);
+        if (clock_.paused) std::snprintf(text + length, sizeof text - length, "  paused");
         return text;
     }
 
