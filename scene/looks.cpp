@@ -21,10 +21,11 @@ constexpr std::array hairs{rgb(24, 20, 18),    rgb(38, 28, 22),   rgb(58, 40, 28
                            rgb(112, 80, 50),   rgb(168, 130, 78), rgb(206, 172, 112), rgb(140, 66, 34),
                            rgb(150, 148, 144), rgb(214, 212, 208)};
 constexpr std::uint32_t fair_skins = 4, dark_hairs = 4;
+// None near a skin's colour: nobody seems to wear nothing.
 constexpr std::array casual_shirts{rgb(240, 240, 236), rgb(34, 36, 40),    rgb(98, 104, 112), rgb(30, 52, 96),
                                    rgb(70, 120, 176),  rgb(150, 190, 220), rgb(44, 94, 66),   rgb(122, 146, 84),
-                                   rgb(236, 196, 84),  rgb(224, 124, 54),  rgb(150, 42, 50),  rgb(204, 150, 160),
-                                   rgb(110, 70, 120),  rgb(196, 178, 150), rgb(120, 86, 62),  rgb(62, 132, 140)};
+                                   rgb(236, 196, 84),  rgb(224, 124, 54),  rgb(150, 42, 50),  rgb(222, 112, 148),
+                                   rgb(110, 70, 120),  rgb(222, 216, 198), rgb(58, 78, 92),   rgb(62, 132, 140)};
 constexpr std::array home_shirts{rgb(200, 28, 44), rgb(182, 20, 36), rgb(214, 50, 58), rgb(244, 242, 240)};
 constexpr std::array away_shirts{rgb(248, 206, 40), rgb(238, 190, 24), rgb(252, 222, 92), rgb(26, 70, 150)};
 constexpr std::array trousers{rgb(44, 62, 96), rgb(58, 82, 122),   rgb(30, 40, 62),   rgb(28, 28, 32),
