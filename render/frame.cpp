@@ -118,8 +118,10 @@ void Renderer::upload_selection(const Selection& selection) {
         ++runs_.back().count;
         const FigureObjects& figure = figures_[batch.character];
         if (points)
-            command_words_.insert(command_words_.end(), {batch.points, batch.instance_count,
-                                                         batch.pose * figure.point_count, batch.first_instance});
+            command_words_.insert(
+                command_words_.end(),
+                {batch.points, batch.instance_count,
+                 batch.pose * figure.point_record_count + first_point(figure, batch.points), batch.first_instance});
         else
             command_words_.insert(command_words_.end(),
                                   {static_cast<std::uint32_t>(figure.index_count), batch.instance_count, 0u,
@@ -130,6 +132,14 @@ void Renderer::upload_selection(const Selection& selection) {
                       GL_STREAM_DRAW);
     glNamedBufferData(instances_.name(), static_cast<GLsizeiptr>(selection.instances.size() * sizeof(Instance)),
                       selection.instances.data(), GL_STREAM_DRAW);
+}
+
+// Where a prefix starts among a pose's records: short ones have records of their own, long ones share the last.
+GLuint Renderer::first_point(const FigureObjects& figure, std::uint32_t points) {
+    if (points > longest_averaged_prefix) return figure.point_record_count - figure.point_count;
+    GLuint first = 0;
+    for (std::uint32_t level = 1; level_points(level) < points; ++level) first += level_points(level);
+    return first;
 }
 
 void Renderer::draw_people() const {

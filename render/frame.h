@@ -49,6 +49,7 @@ private:
         TextureObject layers;  // none if the figure has no textures
         GLsizei index_count = 0;
         GLuint vertex_count = 0, point_count = 0;
+        GLuint point_record_count = 0;  // a pose: first_point says where prefixes start
         bool double_sided = false, textured = false;
     };
     struct SectorRange {
@@ -67,6 +68,7 @@ private:
     void upload_structure(const scene::StaticMesh& structure);
     void upload_frame(const View& view, double splat_size);
     void upload_selection(const Selection& selection);
+    static GLuint first_point(const FigureObjects& figure, std::uint32_t points);
     void draw_people() const;
     void draw_structure(const View& view) const;
     void draw_sky() const;

@@ -113,4 +113,7 @@ std::uint32_t level_points(std::uint32_t level);  // 1, 2, 3, 4, 6, 8, 12, 16, 2
 // The lowest level with at least `points` points; 33 if that is beyond level 32.
 std::uint32_t level_for(float points);
 
+// Prefixes of up to this many points are drawn with looks of their own (pointsample::prefix_looks).
+inline constexpr std::uint32_t longest_averaged_prefix = 32;
+
 }  // namespace render

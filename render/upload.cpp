@@ -1,10 +1,12 @@
 // What the renderer puts on the device once: characters in all their poses, and the structure.
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <glm/gtc/packing.hpp>
 #include <limits>
 #include <stdexcept>
 
+#include "pointsample/prefix_look.h"
 #include "render/frame.h"
 #include "render/texture_array.h"
 #include "shaders/layout.h"
@@ -18,12 +20,14 @@ namespace {
 struct BakedVertex {
     motion::PosedVertex posed;
     std::uint8_t red, green, blue;  // sRGB
-    std::uint8_t look;
-    std::uint32_t uv;  // half x 2
+    std::uint8_t look;              // of vertices: tint and texture layer; of points: whether seen from everywhere
+    std::uint32_t uv_or_shares;     // of vertices: half x 2; of points: unorm 8 x 4, shares of the palette
 };
 static_assert(sizeof(BakedVertex) == 16);
-static_assert(offsetof(BakedVertex, red) == 8 && offsetof(BakedVertex, look) == 11 && offsetof(BakedVertex, uv) == 12);
+static_assert(offsetof(BakedVertex, red) == 8 && offsetof(BakedVertex, look) == 11 &&
+              offsetof(BakedVertex, uv_or_shares) == 12);
 static_assert(offsetof(motion::PosedVertex, normal_u) == 6);
+static_assert(motion::tint_count == 5, "four shares of the palette, and the rest untinted");
 
 constexpr GLuint vertex_binding = 0;
 constexpr GLuint instance_binding = 1;
@@ -39,36 +43,62 @@ std::uint8_t look_of(motion::Tint tint, std::uint8_t layer) {
     return static_cast<std::uint8_t>(static_cast<unsigned>(tint) | (static_cast<unsigned>(layer) << look_tint_bits));
 }
 
-// The poses of `table` with the looks of each vertex beside them.
-std::vector<BakedVertex> with_looks(const std::vector<motion::PosedVertex>& posed,
-                                    const std::vector<BakedVertex>& looks) {
-    std::vector<BakedVertex> baked(posed.size());
-    for (std::size_t i = 0; i < posed.size(); ++i) {
-        baked[i] = looks[i % looks.size()];
-        baked[i].posed = posed[i];
+// What is drawn of a pose: some of its vertices or points in some order, each with its look.
+struct Record {
+    std::uint32_t posed;  // which of the pose's
+    BakedVertex look;
+};
+
+// Pose after pose of `posed`, `per_pose` each, as the records ask for them.
+Buffer upload_poses(const std::vector<motion::PosedVertex>& posed, int per_pose, const std::vector<Record>& records) {
+    const std::size_t pose_count = posed.size() / static_cast<std::size_t>(per_pose);
+    std::vector<BakedVertex> baked;
+    baked.reserve(pose_count * records.size());
+    for (std::size_t pose = 0; pose < pose_count; ++pose) {
+        for (const Record& record : records) {
+            baked.push_back(record.look);
+            baked.back().posed = posed[pose * static_cast<std::size_t>(per_pose) + record.posed];
+        }
     }
-    return baked;
+    return upload(baked);
 }
 
-std::vector<BakedVertex> vertex_looks(const motion::Mesh& mesh) {
-    std::vector<BakedVertex> looks(mesh.vertex_count());
-    for (std::size_t v = 0; v < looks.size(); ++v) {
+std::vector<Record> vertex_records(const motion::Mesh& mesh) {
+    std::vector<Record> records;
+    for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+        const glm::u8vec4 color = mesh.colors[v];
         const std::uint8_t layer = mesh.texture_ids[v] == motion::no_texture ? no_layer : mesh.texture_ids[v];
-        looks[v] = {{},
-                    mesh.colors[v].r,
-                    mesh.colors[v].g,
-                    mesh.colors[v].b,
-                    look_of(mesh.tints[v], layer),
-                    glm::packHalf2x16(mesh.uvs[v])};
+        records.push_back(
+            {v, {{}, color.r, color.g, color.b, look_of(mesh.tints[v], layer), glm::packHalf2x16(mesh.uvs[v])}});
     }
-    return looks;
+    return records;
 }
 
-std::vector<BakedVertex> point_looks(const pointsample::PointModel& model) {
-    std::vector<BakedVertex> looks(model.size());
-    for (std::size_t p = 0; p < looks.size(); ++p)
-        looks[p] = {{}, model.colors[p].r, model.colors[p].g, model.colors[p].b, look_of(model.tints[p], no_layer), 0};
-    return looks;
+std::uint32_t own_share(motion::Tint tint) {
+    constexpr std::uint32_t whole = 255;
+    return tint == motion::Tint::none ? 0 : whole << (8 * (static_cast<unsigned>(tint) - 1));
+}
+
+// First the short prefixes with averaged looks, one after the other, then all points with their own: see
+// Renderer::first_point.
+std::vector<Record> point_records(const pointsample::PointModel& model) {
+    // Of a handful of points none may happen to face the camera: these are never dropped for facing away.
+    constexpr std::uint32_t longest_two_sided_prefix = 8;
+    std::vector<Record> records;
+    for (std::uint32_t level = 1; level_points(level) <= longest_averaged_prefix; ++level) {
+        if (level_points(level) > model.size()) break;
+        const std::uint8_t two_sided = level_points(level) <= longest_two_sided_prefix;
+        std::uint32_t point = 0;
+        for (const pointsample::PrefixLook& look : pointsample::prefix_looks(model, level_points(level)))
+            records.push_back(
+                {point++,
+                 {{}, look.color.r, look.color.g, look.color.b, two_sided, std::bit_cast<std::uint32_t>(look.tint)}});
+    }
+    for (std::uint32_t p = 0; p < model.size(); ++p) {
+        const glm::u8vec4 color = model.colors[p];
+        records.push_back({p, {{}, color.r, color.g, color.b, 0, own_share(model.tints[p])}});
+    }
+    return records;
 }
 
 void add_float(GLuint array, int attribute, int size, GLenum type, bool normalized, std::size_t offset,
@@ -87,7 +117,7 @@ void add_integer(GLuint array, int attribute, int size, GLenum type, std::size_t
 }
 
 // Reads people: `vertices` a pose at a time, `instances` a person at a time.
-VertexArray make_person_array(const Buffer& vertices, const Buffer& instances, bool textured) {
+VertexArray make_person_array(const Buffer& vertices, const Buffer& instances) {
     VertexArray array = make_vertex_array();
     const GLuint a = array.name();
     glVertexArrayVertexBuffer(a, vertex_binding, vertices.name(), 0, sizeof(BakedVertex));
@@ -97,10 +127,25 @@ VertexArray make_person_array(const Buffer& vertices, const Buffer& instances, b
     add_float(a, attribute_normal, 2, GL_BYTE, true, offsetof(motion::PosedVertex, normal_u), vertex_binding);
     add_float(a, attribute_color, 3, GL_UNSIGNED_BYTE, true, offsetof(BakedVertex, red), vertex_binding);
     add_integer(a, attribute_look, 1, GL_UNSIGNED_BYTE, offsetof(BakedVertex, look), vertex_binding);
-    if (textured) add_float(a, attribute_uv, 2, GL_HALF_FLOAT, false, offsetof(BakedVertex, uv), vertex_binding);
     add_float(a, attribute_placement, 4, GL_FLOAT, false, offsetof(Instance, position), instance_binding);
     add_float(a, attribute_turn, 2, GL_SHORT, true, offsetof(Instance, sin_yaw), instance_binding);
     add_integer(a, attribute_palette, 4, GL_UNSIGNED_INT, offsetof(Instance, palette), instance_binding);
+    return array;
+}
+
+VertexArray make_triangle_array(const Buffer& vertices, const Buffer& indices, const Buffer& instances, bool textured) {
+    VertexArray array = make_person_array(vertices, instances);
+    if (textured)
+        add_float(array.name(), attribute_uv, 2, GL_HALF_FLOAT, false, offsetof(BakedVertex, uv_or_shares),
+                  vertex_binding);
+    glVertexArrayElementBuffer(array.name(), indices.name());
+    return array;
+}
+
+VertexArray make_point_array(const Buffer& points, const Buffer& instances) {
+    VertexArray array = make_person_array(points, instances);
+    add_float(array.name(), attribute_uv, 4, GL_UNSIGNED_BYTE, true, offsetof(BakedVertex, uv_or_shares),
+              vertex_binding);
     return array;
 }
 
@@ -112,16 +157,17 @@ Renderer::FigureObjects Renderer::upload_figure(const FigureAssets& assets) cons
     figure.textured = !mesh.textures.empty();
     figure.double_sided = mesh.double_sided;
     if (figure.textured) figure.layers = make_texture_array(mesh.textures);
-    figure.vertices = upload(with_looks(assets.poses->vertices, vertex_looks(mesh)));
+    figure.vertices = upload_poses(assets.poses->vertices, assets.poses->vertex_count, vertex_records(mesh));
     figure.indices = upload(mesh.indices);
     figure.index_count = static_cast<GLsizei>(mesh.indices.size());
     figure.vertex_count = static_cast<GLuint>(mesh.vertex_count());
-    figure.triangle_array = make_person_array(figure.vertices, instances_, figure.textured);
-    glVertexArrayElementBuffer(figure.triangle_array.name(), figure.indices.name());
+    figure.triangle_array = make_triangle_array(figure.vertices, figure.indices, instances_, figure.textured);
     if (assets.poses->point_count > 0) {
-        figure.points = upload(with_looks(assets.poses->points, point_looks(*assets.points)));
+        const std::vector<Record> records = point_records(*assets.points);
+        figure.points = upload_poses(assets.poses->points, assets.poses->point_count, records);
+        figure.point_record_count = static_cast<GLuint>(records.size());
         figure.point_count = static_cast<GLuint>(assets.poses->point_count);
-        figure.point_array = make_person_array(figure.points, instances_, false);
+        figure.point_array = make_point_array(figure.points, instances_);
     }
     const motion::Bounds& box = assets.poses->box;
     const float silhouette = 0.25f * assets.poses->area;  // a quarter of the surface, as of any convex body

@@ -18,8 +18,9 @@ using mat4 = glm::mat4;
 CONSTANT attribute_position = 0;   // unorm 16 x 3 over the character's box
 CONSTANT attribute_normal = 1;     // snorm 8 x 2, octahedral
 CONSTANT attribute_color = 2;      // unorm 8 x 3, sRGB
-CONSTANT attribute_look = 3;       // uint 8: tint in the low 3 bits, texture layer above, no_layer = none
-CONSTANT attribute_uv = 4;         // half x 2
+CONSTANT attribute_look = 3;       // uint 8: tint in the low 3 bits, texture layer above, no_layer = none; of points:
+                                   // 1 = stands for both sides of the body, seen from everywhere
+CONSTANT attribute_uv = 4;         // half x 2; of points instead: unorm 8 x 4, shares of the palette
 CONSTANT attribute_placement = 5;  // camera-relative position [m], scale
 CONSTANT attribute_turn = 6;       // snorm 16 x 2: sin, cos of the yaw
 CONSTANT attribute_palette = 7;    // uint 32 x 4: sRGB of skin, hair, shirt, trousers

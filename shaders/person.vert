@@ -2,8 +2,12 @@
 layout(location = attribute_position) in vec3 packed_position;
 layout(location = attribute_normal) in vec2 packed_normal;
 layout(location = attribute_color) in vec3 vertex_color;
-layout(location = attribute_look) in uint look;
+#ifdef POINTS
+layout(location = attribute_uv) in vec4 shares;
+#else
 layout(location = attribute_uv) in vec2 uv;
+#endif
+layout(location = attribute_look) in uint look;
 layout(location = attribute_placement) in vec4 placement;
 layout(location = attribute_turn) in vec2 turn;
 layout(location = attribute_palette) in uvec4 palette;
@@ -32,7 +36,19 @@ vec3 turned(vec3 v) { return vec3(turn.y * v.x + turn.x * v.z, v.y, turn.y * v.z
 // sRGB is near enough to a square for light: one multiplication each way.
 vec3 linear(vec3 srgb) { return srgb * srgb; }
 
-vec3 tint(uint slot) { return slot == 0u ? vec3(1.0) : linear(unpackUnorm4x8(palette[slot - 1u]).rgb); }
+vec3 palette_color(int slot) { return linear(unpackUnorm4x8(palette[slot]).rgb); }
+
+// What the person's own palette makes of the vertex' colour.
+vec3 tint() {
+#ifdef POINTS
+    float untinted = 1.0 - dot(shares, vec4(1.0));
+    return vec3(untinted) + shares.x * palette_color(0) + shares.y * palette_color(1) + shares.z * palette_color(2) +
+           shares.w * palette_color(3);
+#else
+    int slot = int(look & ((1u << look_tint_bits) - 1u));
+    return slot == 0 ? vec3(1.0) : palette_color(slot - 1);
+#endif
+}
 
 vec3 lit(vec3 normal) {
     vec3 surroundings = mix(Frame.ground_light.rgb, Frame.sky_light.rgb, 0.5 + 0.5 * normal.y);
@@ -43,7 +59,7 @@ void main() {
     vec3 model = Figure.box_min.xyz + Figure.box_size.xyz * packed_position;
     vec3 position = placement.xyz + placement.w * turned(model);
     vec3 normal = turned(unfold(packed_normal));
-    vec3 own_color = linear(vertex_color) * tint(look & ((1u << look_tint_bits) - 1u));
+    vec3 own_color = linear(vertex_color) * tint();
     bool away = dot(normal, position) > 0.0;
     gl_Position = Frame.clip_from_camera_relative * vec4(position, 1.0);
 #ifdef POINTS
@@ -51,7 +67,7 @@ void main() {
     float whole_person = Figure.box_size.w * placement.w * Frame.splat.y / gl_Position.w;
     gl_PointSize = clamp(whole_person, 1.0, Frame.splat.x);
     // The far side of a closed body is hidden by the near side: drop it before it costs pixels.
-    if (away && Figure.box_min.w == 0.0) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+    if (away && look == 0u && Figure.box_min.w == 0.0) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
     splat_color = sqrt(own_color * lit(away ? -normal : normal));
 #else
     albedo = own_color;

@@ -1,0 +1,60 @@
+#include "pointsample/prefix_look.h"
+
+#include <cmath>
+#include <limits>
+
+namespace pointsample {
+
+namespace {
+
+std::size_t nearest(const PointModel& model, std::size_t point, std::size_t count) {
+    std::size_t best = 0;
+    float best_distance = std::numeric_limits<float>::infinity();
+    for (std::size_t i = 0; i < count; ++i) {
+        constexpr float opposed = 2.0f * 2.0f;  // distances are squared
+        const glm::vec3 apart = model.positions[i] - model.positions[point];
+        const bool faces_away = glm::dot(model.normals[i], model.normals[point]) < 0.0f;
+        const float distance = glm::dot(apart, apart) * (faces_away ? opposed : 1.0f);
+        if (distance >= best_distance) continue;
+        best_distance = distance;
+        best = i;
+    }
+    return best;
+}
+
+struct Sum {
+    glm::vec3 light{0.0f};  // the shaders' linear: sRGB squared, each in [0, 1]
+    std::array<float, motion::tint_count> tint{};
+    float points = 0;
+};
+
+std::uint8_t unorm8(float value) {
+    return static_cast<std::uint8_t>(std::lround(255.0f * value));
+}
+
+PrefixLook mean(const Sum& sum) {
+    const glm::vec3 color = glm::sqrt(sum.light / sum.points);
+    PrefixLook look{{unorm8(color.r), unorm8(color.g), unorm8(color.b), 255}, {}};
+    for (std::size_t t = 0; t < look.tint.size(); ++t) look.tint[t] = unorm8(sum.tint[t + 1] / sum.points);
+    return look;
+}
+
+}  // namespace
+
+std::vector<PrefixLook> prefix_looks(const PointModel& model, std::size_t count) {
+    std::vector<Sum> sums(count);
+    for (std::size_t point = 0; point < model.size(); ++point) {
+        // A prefix point is its own nearest, so that no sum stays empty.
+        Sum& sum = sums[point < count ? point : nearest(model, point, count)];
+        const glm::vec3 color = glm::vec3(model.colors[point]) / 255.0f;
+        sum.light += color * color;
+        sum.tint[static_cast<std::size_t>(model.tints[point])] += 1.0f;
+        sum.points += 1.0f;
+    }
+    std::vector<PrefixLook> looks;
+    looks.reserve(count);
+    for (const Sum& sum : sums) looks.push_back(mean(sum));
+    return looks;
+}
+
+}  // namespace pointsample

@@ -1,0 +1,26 @@
+// What a short prefix of a point model must look like: a person drawn by two points shows two averages of their
+// surface, not the two spots that happen to come first.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "pointsample/point_model.h"
+
+namespace pointsample {
+
+// The mean over the part of the surface that is nearest to one point of the prefix.
+struct PrefixLook {
+    glm::u8vec4 color;                                      // of the light, sRGB-encoded
+    std::array<std::uint8_t, motion::tint_count - 1> tint;  // share of each tint but none, unorm; the rest is none
+};
+
+// One element for each of the first `count` points, as if there were no others; count in [1, model.size()].
+// Each of the model's points is of equal area and goes to the nearest; facing the other way counts as twice as far.
+// Time is count * model.size().
+std::vector<PrefixLook> prefix_looks(const PointModel& model, std::size_t count);
+
+}  // namespace pointsample
