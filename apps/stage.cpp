@@ -69,7 +69,7 @@ std::unique_ptr<Stage> build_stage(const std::vector<std::filesystem::path>& cha
     for (const std::filesystem::path& file : character_files)
         add_character(*stage, pointsample::load_gltf(file), seed, pose_byte_budget / character_files.size());
     ProgressBar bar("Seating the crowd");
-    stage->plan = scene::plan_stadium(people);
+    stage->plan = scene::plan_stadium(people, scene::room_for(stage->cast, stage->poses));
     stage->structure = scene::build_structure(stage->plan);
     bar(0.5);
     stage->crowd = scene::populate(stage->plan, people, stage->cast, stage->poses, seed);

@@ -2,10 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <glm/glm.hpp>
 #include <string>
 #include <vector>
-
-#include <glm/glm.hpp>
 
 #include "scene/stadium.h"
 

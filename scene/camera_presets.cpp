@@ -40,7 +40,7 @@ CameraPose still(const StadiumPlan& plan) {
     constexpr double share = 0.85;  // of the rows are below
     constexpr double eye = 2.3;     // [m] above the aisle: over most hands of who sits in front
     const Row& row = plan.rows[static_cast<std::size_t>(share * static_cast<double>(plan.rows.size() - 1))];
-    const glm::vec2 xz = aisle_towards(plan, {-0.62f, 0.78f}).at(row.offset + row_depth / 2);
+    const glm::vec2 xz = aisle_towards(plan, {-0.62f, 0.78f}).at(row.offset + plan.room.depth / 2);
     return {{xz.x, row.floor + eye, xz.y}, {-5.0, 0.0, 12.0}, degrees(56)};
 }
 

@@ -67,10 +67,10 @@ Casting cast(const motion::Character& character) {
     member.sits = seated.has_value();
     const int walk = find_any(character, {"walk", "run", "fly"});
     const auto calm = [&](Role role, int clip) { member.acts[static_cast<int>(role)].calm = {baked(casting, clip)}; };
-    // The first clip baked is the one that a person's height is measured in: not a seated one.
+    // The first clip baked is the one that a person's height is measured in: upright, not seated nor in mid-stride.
+    calm(Role::standing, seated ? find_any(character, {"stand", "idle", "walk"}) : walk);
     calm(Role::walker, walk);
     calm(Role::runner, find_any(character, {"run", "walk", "fly"}));
-    calm(Role::standing, seated ? find_any(character, {"stand", "idle", "walk"}) : walk);
     calm(Role::spectator, seated ? *seated : walk);
     for (std::string_view word : {"cheer", "clap", "wave"})
         if (const auto clip = find(character, word))

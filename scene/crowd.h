@@ -3,11 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <span>
 #include <string>
 #include <vector>
-
-#include <glm/glm.hpp>
 
 #include "motion/pose.h"
 #include "motion/pose_table.h"
@@ -68,6 +67,10 @@ struct Action {
     std::uint8_t clip;       // into PoseTable::clips
     std::int64_t clip_tick;  // of the clip's own time
 };
+
+// The room that the widest and the deepest of the cast need while they watch: a seat if all sit, else a place on a
+// terrace. Characters much longer than tall (a fox) still overlap.
+Room room_for(std::span<const CastMember> cast, std::span<const motion::PoseTable> poses);
 
 // Seats first (seeded choice of who sits where, athletes on the track), then the pitch and around, out to as far as it
 // takes. `people` in [1, 10'000'000]. The cast's poses are needed for the blocks' boxes: one PoseTable a member.

@@ -13,8 +13,8 @@ namespace scene {
 // colours.
 motion::Character make_person();
 
-inline constexpr float seat_height = 0.45f;   // [m]
-inline constexpr float walk_speed = 1.4f;     // [m/s] at 1.75 m: feet don't slide
-inline constexpr float run_speed = 4.5f;      // [m/s]
+inline constexpr float seat_height = 0.45f;  // [m]
+inline constexpr float walk_speed = 1.4f;    // [m/s] at 1.75 m: feet don't slide
+inline constexpr float run_speed = 4.5f;     // [m/s]
 
 }  // namespace scene

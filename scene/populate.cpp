@@ -187,7 +187,7 @@ void take_seat(Gathering& gathering, std::uint32_t which) {
     glm::vec3 position = seat.position;
     if (gathering.cast[character].sits) {
         position.y += seat_height * (1.0f - height / gathering.poses[character].rest_height);
-    } else {
+    } else if (gathering.plan.room.seats) {
         position += (hips_depth - stander_depth) * glm::vec3(std::sin(seat.yaw), 0, std::cos(seat.yaw));
     }
     gathering.add(position, seat.yaw + yaw_jitter * draw_triangle(hash(own, salt_yaw)), height, character,
@@ -235,7 +235,10 @@ float clustering(const Gathering& gathering, glm::vec2 xz) {
 
 // Places on the ground come in square cells, each of which becomes a block.
 constexpr int cell_places = 16;  // a side
-constexpr float cell_size = static_cast<float>(cell_places) * standing_pitch;
+
+float cell_size(const StadiumPlan& plan) {
+    return static_cast<float>(cell_places) * standing_pitch(plan.room);
+}
 
 struct Cell {
     std::int32_t x, z;
@@ -266,13 +269,14 @@ template <typename Visit>
 void for_each_place(const Gathering& gathering, Ground ground, Cell cell, Visit visit) {
     constexpr float share_swing = 0.2f;  // clusters take up to so much more or less of the places than on average
     const StadiumPlan& plan = gathering.plan;
+    const float pitch = standing_pitch(plan.room);
     for (int place = 0; place < cell_places * cell_places; ++place) {
         const int column = cell.x * cell_places + place % cell_places;
         const int row = cell.z * cell_places + place / cell_places;
         const std::uint64_t bits =
             hash(gathering.bits(salt_place, static_cast<std::uint64_t>(column)), static_cast<std::uint64_t>(row));
         const glm::vec2 jitter(2.0f * unit(bits) - 1.0f, 2.0f * unit(mix(bits)) - 1.0f);
-        const glm::vec2 xz = standing_pitch * (glm::vec2(column, row) + 0.5f) + standing_jitter * jitter;
+        const glm::vec2 xz = pitch * (glm::vec2(column, row) + 0.5f) + standing_jitter * jitter;
         const float share = standing_share + share_swing * (2.0f * clustering(gathering, xz) - 1.0f);
         if (unit(hash(bits, salt_density)) >= share) continue;
         const float offset = plan.oval.offset_of(xz);
@@ -281,14 +285,16 @@ void for_each_place(const Gathering& gathering, Ground ground, Cell cell, Visit 
 }
 
 // The cells that reach between two parallels of the oval.
-std::vector<Cell> cells_between(const Oval& oval, float inner, float outer) {
-    constexpr float reach = cell_size;  // more than from a cell's centre to its corners, and jitter
-    const int columns = static_cast<int>((oval.half_straight + oval.radius + outer + reach) / cell_size) + 1;
-    const int rows = static_cast<int>((oval.radius + outer + reach) / cell_size) + 1;
+std::vector<Cell> cells_between(const StadiumPlan& plan, float inner, float outer) {
+    const Oval& oval = plan.oval;
+    const float size = cell_size(plan);
+    const float reach = size;  // more than from a cell's centre to its corners, and jitter
+    const int columns = static_cast<int>((oval.half_straight + oval.radius + outer + reach) / size) + 1;
+    const int rows = static_cast<int>((oval.radius + outer + reach) / size) + 1;
     std::vector<Cell> cells;
     for (int z = -rows; z < rows; ++z) {
         for (int x = -columns; x < columns; ++x) {
-            const float offset = oval.offset_of(cell_size * (glm::vec2(x, z) + 0.5f));
+            const float offset = oval.offset_of(size * (glm::vec2(x, z) + 0.5f));
             if (offset > inner - reach && offset < outer + reach) cells.push_back({x, z});
         }
     }
@@ -336,7 +342,7 @@ void stand(Gathering& gathering, const StandingPlace& place) {
 std::int64_t fill_ground(Gathering& gathering, Ground ground, float inner, float outer, std::int64_t wanted) {
     if (wanted == 0) return 0;
     const Oval& oval = gathering.plan.oval;
-    const std::vector<Cell> cells = cells_between(oval, inner, outer);
+    const std::vector<Cell> cells = cells_between(gathering.plan, inner, outer);
     Cut cut = cut_after(gathering, ground, cells, wanted);
     const std::size_t before = gathering.crowd.size();
     for (const Cell& cell : cells) {
@@ -371,6 +377,21 @@ void reserve(Crowd& crowd, std::size_t people) {
 }
 
 }  // namespace
+
+Room room_for(std::span<const CastMember> cast, std::span<const motion::PoseTable> poses) {
+    constexpr float height = 1.7f;                  // [m] of people on average
+    constexpr float widest = 1.5f, deepest = 2.4f;  // [m] beyond, neighbours overlap: stands must stay stands
+    Room room;
+    for (std::size_t i = 0; i < cast.size(); ++i) {
+        if (cast[i].sits) continue;
+        room.seats = false;
+        const std::uint8_t clip = cast[i].acts[static_cast<int>(Role::spectator)].calm.front();
+        const glm::vec3 size = height / poses[i].rest_height * poses[i].clip_boxes[clip].size();
+        room.width = std::clamp(size.x, room.width, widest);
+        room.depth = std::clamp(size.z, room.depth, deepest);
+    }
+    return room;
+}
 
 Crowd populate(const StadiumPlan& plan, std::int64_t people, std::span<const CastMember> cast,
                std::span<const motion::PoseTable> poses, std::uint64_t seed) {

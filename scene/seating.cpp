@@ -27,7 +27,7 @@ constexpr float eye_height = 1.2f;  // [m] of a seated spectator
 constexpr float focus_offset = track_width / 2;
 constexpr float min_riser = 0.35f, max_riser = 0.55f;  // [m] shallower wastes height, steeper is unsafe
 
-float riser_above(const Row& row) {
+float riser_above(const Row& row, float row_depth) {
     const float eye = row.floor + eye_height;
     const float distance = row.offset + hips_depth - focus_offset;
     const float riser = (eye + c_value) * (distance + row_depth) / distance - eye;
@@ -39,7 +39,7 @@ std::uint32_t lower_tier_rows(int rows) {
     return static_cast<std::uint32_t>(std::lround(lower_tier_share * static_cast<float>(rows)));
 }
 
-std::vector<Row> stack_rows(int count, std::uint32_t lower_rows) {
+std::vector<Row> stack_rows(int count, std::uint32_t lower_rows, float row_depth) {
     std::vector<Row> rows{{first_row_offset, first_floor, 0, 0}};
     while (rows.size() < static_cast<std::size_t>(count)) {
         Row next = rows.back();
@@ -48,7 +48,7 @@ std::vector<Row> stack_rows(int count, std::uint32_t lower_rows) {
             next.offset += concourse_depth;
             next.floor += concourse_height;
         } else {
-            next.floor += riser_above(rows.back());
+            next.floor += riser_above(rows.back(), row_depth);
         }
         rows.push_back(next);
     }
@@ -78,7 +78,8 @@ std::vector<Spoke> lay_spokes(const Oval& oval, float offset) {
 
 // The seats of one row between two spokes, an aisle's half width away from both.
 void seat_section(StadiumPlan& plan, std::size_t row, std::size_t section) {
-    const float offset = plan.rows[row].offset + hips_depth;
+    const float offset = plan.rows[row].offset + (plan.room.seats ? hips_depth : plan.room.depth / 2);
+    const float seat_pitch = plan.room.width;
     const glm::vec2 from = plan.spokes[section].at(offset);
     const glm::vec2 to = plan.spokes[(section + 1) % plan.spokes.size()].at(offset);
     const float length = glm::distance(from, to);
@@ -125,7 +126,8 @@ float area_between(const Oval& oval, float inner, float outer) {
 
 // Solves area_between(plaza's edge, x) = what those who find neither seat nor grass need.
 float extent_of_crowd(const StadiumPlan& plan) {
-    constexpr float people_per_m2 = standing_share / (standing_pitch * standing_pitch);
+    const float pitch = standing_pitch(plan.room);
+    const float people_per_m2 = standing_share / (pitch * pitch);
     const Oval& oval = plan.oval;
     const float infield = people_per_m2 * area_between(oval, -oval.radius, -infield_margin);
     const double standing = static_cast<double>(plan.people - athlete_count(plan.people)) -
@@ -137,12 +139,13 @@ float extent_of_crowd(const StadiumPlan& plan) {
     return static_cast<float>(std::sqrt(target + half_b * half_b) - half_b) - oval.radius;
 }
 
-StadiumPlan plan_with_rows(int rows) {
+StadiumPlan plan_with_rows(int rows, const Room& room) {
     StadiumPlan plan;
+    plan.room = room;
     plan.lower_rows = lower_tier_rows(rows);
-    plan.rows = stack_rows(rows, plan.lower_rows);
+    plan.rows = stack_rows(rows, plan.lower_rows, room.depth);
     plan.stand_offset = plan.rows.front().offset;
-    const float stand_back = plan.rows.back().offset + row_depth;
+    const float stand_back = plan.rows.back().offset + room.depth;
     plan.outer_offset = stand_back + back_walkway;
     plan.spokes = lay_spokes(plan.oval, (plan.stand_offset + stand_back) / 2);
     seat_rows(plan);
@@ -153,12 +156,12 @@ StadiumPlan plan_with_rows(int rows) {
 
 }  // namespace
 
-StadiumPlan plan_stadium(std::int64_t people) {
+StadiumPlan plan_stadium(std::int64_t people, const Room& room) {
     assert(people >= 1);
     const double wanted = static_cast<double>(people - athlete_count(people)) / filled_share;
     int rows = min_rows;
-    StadiumPlan plan = plan_with_rows(rows);
-    while (rows < max_rows && static_cast<double>(plan.seats.size()) < wanted) plan = plan_with_rows(++rows);
+    StadiumPlan plan = plan_with_rows(rows, room);
+    while (rows < max_rows && static_cast<double>(plan.seats.size()) < wanted) plan = plan_with_rows(++rows, room);
     plan.people = people;
     plan.crowd_offset = extent_of_crowd(plan);
     return plan;

@@ -2,9 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
-
 #include <glm/glm.hpp>
+#include <vector>
 
 #include "motion/pose.h"
 #include "scene/oval.h"
@@ -12,8 +11,10 @@
 namespace scene {
 
 struct Seat {
-    glm::vec3 position;  // [m] under the hips, on the row's floor: the seat's surface is person.h's seat_height above
-    float yaw;           // [rad] facing (sin yaw, 0, cos yaw), towards the pitch
+    // [m] under the hips, on the row's floor: the seat's surface is person.h's seat_height above. On a terrace, the
+    // feet.
+    glm::vec3 position;
+    float yaw;                   // [rad] facing (sin yaw, 0, cos yaw), towards the pitch
     std::uint16_t row, section;  // into StadiumPlan::rows; between spokes `section` and `section` + 1
 };
 
@@ -25,7 +26,7 @@ struct Spoke {
     glm::vec2 at(float offset) const { return foot + offset * outward; }
 };
 
-// One step of the stand: a tread, 0.8 m deep, and the riser behind it.
+// One step of the stand: a tread, Room::depth deep, and the riser behind it.
 struct Row {
     float offset;  // [m] outward from the inner line to the tread's front edge, along the spokes
     float floor;   // [m] height of the tread
@@ -38,9 +39,17 @@ struct Roof {
     float inner_height = 0, outer_height = 0;  // [m] of its top
 };
 
+// What one spectator takes up on the stands.
+struct Room {
+    float width = 0.52f;  // [m] along the row, in [0.52, 3]
+    float depth = 0.8f;   // [m] of the tread, in [0.8, 3]
+    bool seats = true;    // else people stand on bare terraces
+};
+
 // Rows of seats in one or two tiers around the oval, in sections between aisles.
 struct StadiumPlan {
     std::int64_t people = 0;  // planned for
+    Room room;
     Oval oval;
     float stand_offset = 0;        // [m] outward from the inner line to the first row
     float outer_offset = 0;        // [m] to the outer wall
@@ -55,7 +64,7 @@ struct StadiumPlan {
 
 // As many rows as it takes to seat `people` (athletes aside) with a few seats to spare, within 8 to 60 rows.
 // `people` >= 1.
-StadiumPlan plan_stadium(std::int64_t people);
+StadiumPlan plan_stadium(std::int64_t people, const Room& room = {});
 
 // What the ground shader draws instead of a plain colour.
 enum class Surface : std::uint8_t { painted, ground };

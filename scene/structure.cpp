@@ -162,7 +162,8 @@ void add_seats(Builder& builder, std::size_t section, std::size_t row) {
     builder.sweep(section, {hips - front, surface - lip}, {hips - front, surface}, begin, end, color);
     builder.sweep(section, {hips - front, surface}, {hips + back, surface}, begin, end, color);
     builder.sweep(section, {hips + back, surface}, {hips + back, floor + back_top}, begin, end, color);
-    builder.sweep(section, {hips + back, floor + back_top}, {hips + back, floor + row_depth / 4}, begin, end, color);
+    builder.sweep(section, {hips + back, floor + back_top}, {hips + back, floor + builder.plan.room.depth / 4}, begin,
+                  end, color);
 }
 
 // Half a step in the aisle, against the riser to the next row.
@@ -171,8 +172,8 @@ void add_aisle_step(Builder& builder, std::size_t spoke, std::size_t row) {
     const float rise = (builder.plan.rows[row + 1].floor - here.floor) / 2;
     const glm::vec2 outward = builder.plan.spokes[spoke].outward;
     const glm::vec2 side = aisle_width / 2 * glm::vec2(outward.y, -outward.x);
-    const glm::vec2 front = builder.plan.spokes[spoke].at(here.offset + row_depth / 2);
-    const glm::vec2 back = builder.plan.spokes[spoke].at(here.offset + row_depth);
+    const glm::vec2 front = builder.plan.spokes[spoke].at(here.offset + builder.plan.room.depth / 2);
+    const glm::vec2 back = builder.plan.spokes[spoke].at(here.offset + builder.plan.room.depth);
     const float top = here.floor + rise;
     builder.quad(lift(front + side, here.floor), lift(front - side, here.floor), lift(front - side, top),
                  lift(front + side, top), riser_grey);
@@ -184,7 +185,7 @@ void add_aisle_step(Builder& builder, std::size_t spoke, std::size_t row) {
 void add_rise(Builder& builder, std::size_t section, std::size_t row) {
     const Row& here = builder.plan.rows[row];
     const Row& next = builder.plan.rows[row + 1];
-    const float end = here.offset + row_depth;
+    const float end = here.offset + builder.plan.room.depth;
     if (row + 1 != builder.plan.lower_rows) {
         builder.sweep(section, {end, here.floor}, {next.offset, next.floor}, riser_grey);
         return;
@@ -204,9 +205,9 @@ void add_rise(Builder& builder, std::size_t section, std::size_t row) {
 void add_rows(Builder& builder, std::size_t section) {
     const std::vector<Row>& rows = builder.plan.rows;
     for (std::size_t row = 0; row < rows.size(); ++row) {
-        const float end = rows[row].offset + row_depth;
+        const float end = rows[row].offset + builder.plan.room.depth;
         builder.sweep(section, {rows[row].offset, rows[row].floor}, {end, rows[row].floor}, tread_grey);
-        add_seats(builder, section, row);
+        if (builder.plan.room.seats) add_seats(builder, section, row);
         if (row + 1 == rows.size()) break;
         add_rise(builder, section, row);
         if (row + 1 != builder.plan.lower_rows) add_aisle_step(builder, section, row);
@@ -247,7 +248,7 @@ void add_back(Builder& builder, std::size_t section) {
     const Row& last = plan.rows.back();
     constexpr float thickness = 0.3f;  // [m]
     const float inner = plan.outer_offset - thickness, top = last.floor + rim_above_last_row;
-    builder.sweep(section, {last.offset + row_depth, last.floor}, {inner, last.floor}, tread_grey);
+    builder.sweep(section, {last.offset + plan.room.depth, last.floor}, {inner, last.floor}, tread_grey);
     builder.sweep(section, {inner, last.floor}, {inner, top}, wall_grey);
     builder.sweep(section, {inner, top}, {plan.outer_offset, top}, coping);
     add_facade(builder, section, top);
