@@ -10,7 +10,7 @@
 #include <sstream>
 #include <string>
 
-namespace test {
+namespace tests {
 
 struct Outcome {
     int code = -1;    // exit code; 128 + signal if it crashed
@@ -64,4 +64,4 @@ inline bool one_line(const std::string& text) {
     return !text.empty() && text.find('\n') == text.size() - 1;
 }
 
-}  // namespace test
+}  // namespace tests

@@ -43,15 +43,15 @@ std::vector<std::string> column(const std::string& trace, const std::string& nam
 }
 
 void expect_usage_error(const std::string& arguments, const std::string& named) {
-    const test::Outcome outcome = test::run("stadium", arguments);
+    const tests::Outcome outcome = tests::run("stadium", arguments);
     EXPECT_EQ(outcome.code, 2) << arguments;
-    EXPECT_TRUE(test::one_line(outcome.err)) << outcome.err;
+    EXPECT_TRUE(tests::one_line(outcome.err)) << outcome.err;
     EXPECT_NE(outcome.err.find(named), std::string::npos) << outcome.err;
     EXPECT_EQ(outcome.out, "") << arguments;
 }
 
 TEST(StadiumProgram, TraceHasARowAFrameWithTheColumnsOfTheContract) {
-    const test::Outcome outcome = test::run("stadium", small + "--frames 7 --trace -");
+    const tests::Outcome outcome = tests::run("stadium", small + "--frames 7 --trace -");
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     const auto table = table_of(outcome.out);
     ASSERT_EQ(table.size(), 8u);
@@ -63,7 +63,7 @@ TEST(StadiumProgram, TraceHasARowAFrameWithTheColumnsOfTheContract) {
 }
 
 TEST(StadiumProgram, SummaryHasTheFieldsOfTheContract) {
-    const test::Outcome outcome = test::run("stadium", small + "--frames 3 --summary -");
+    const tests::Outcome outcome = tests::run("stadium", small + "--frames 3 --summary -");
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     for (const char* name : {"people", "frames", "law", "seed", "device", "target_ms", "mean_ms", "p50_ms", "p99_ms",
                              "control_rate", "within_5pct", "within_10pct", "over_5pct", "state_frames"})
@@ -71,28 +71,28 @@ TEST(StadiumProgram, SummaryHasTheFieldsOfTheContract) {
 }
 
 TEST(StadiumProgram, SameSeedAndStateGiveTheSameBytes) {
-    const test::Directory directory;
+    const tests::Directory directory;
     for (const std::string state : {"0", "1", "2"}) {
         for (const std::string name : {"a", "b"})
-            ASSERT_EQ(test::run("stadium", small + "--frames 3 --state " + state + " --png " + (directory / name)).code,
-                      0);
-        const std::string picture = test::read_file(directory / "a");
+            ASSERT_EQ(
+                tests::run("stadium", small + "--frames 3 --state " + state + " --png " + (directory / name)).code, 0);
+        const std::string picture = tests::read_file(directory / "a");
         EXPECT_TRUE(picture.starts_with("\x89PNG"));
-        EXPECT_EQ(picture, test::read_file(directory / "b")) << "state " << state;
+        EXPECT_EQ(picture, tests::read_file(directory / "b")) << "state " << state;
     }
 }
 
 TEST(StadiumProgram, AnotherSeedGivesAnotherPicture) {
-    const test::Directory directory;
-    test::run("stadium", small + "--frames 1 --state 0 --seed 1 --png " + (directory / "a"));
-    test::run("stadium", small + "--frames 1 --state 0 --seed 2 --png " + (directory / "b"));
-    EXPECT_NE(test::read_file(directory / "a"), test::read_file(directory / "b"));
+    const tests::Directory directory;
+    tests::run("stadium", small + "--frames 1 --state 0 --seed 1 --png " + (directory / "a"));
+    tests::run("stadium", small + "--frames 1 --state 0 --seed 2 --png " + (directory / "b"));
+    EXPECT_NE(tests::read_file(directory / "a"), tests::read_file(directory / "b"));
 }
 
 TEST(StadiumProgram, StatesDrawWhatTheyAreDefinedAs) {
     const auto counts = [](const std::string& state, const std::string& what) {
         const auto cells =
-            column(test::run("stadium", small + "--camera still --frames 2 --trace - --state " + state).out, what);
+            column(tests::run("stadium", small + "--camera still --frames 2 --trace - --state " + state).out, what);
         return std::stoll(cells.at(1));
     };
     EXPECT_EQ(counts("0", "points"), 0);
@@ -104,22 +104,22 @@ TEST(StadiumProgram, StatesDrawWhatTheyAreDefinedAs) {
 }
 
 TEST(StadiumProgram, TargetChangesAtItsFrame) {
-    const test::Outcome outcome = test::run("stadium", small + "--frames 5 --target-ms 1000,300@2,95@4 --trace -");
+    const tests::Outcome outcome = tests::run("stadium", small + "--frames 5 --target-ms 1000,300@2,95@4 --trace -");
     EXPECT_EQ(column(outcome.out, "target_ms"), (std::vector<std::string>{"1000", "1000", "300", "300", "95"}));
 }
 
 TEST(StadiumProgram, DecisionsOfARunAreReproducedFromItsTrace) {
-    const test::Directory directory;
+    const tests::Directory directory;
     const std::string trace = directory / "t.csv";
-    ASSERT_EQ(test::run("stadium", small + "--frames 40 --target-ms 1000,2@10 --trace " + trace).code, 0);
-    const test::Outcome outcome = test::run("replay", trace + " --verify");
+    ASSERT_EQ(tests::run("stadium", small + "--frames 40 --target-ms 1000,2@10 --trace " + trace).code, 0);
+    const tests::Outcome outcome = tests::run("replay", trace + " --verify");
     EXPECT_EQ(outcome.code, 0) << outcome.out << outcome.err;
 }
 
 TEST(StadiumProgram, EveryKthPictureIsKept) {
-    const test::Directory directory;
+    const tests::Directory directory;
     const std::string pictures = directory / "new/pictures";
-    ASSERT_EQ(test::run("stadium", small + "--frames 5 --png-every 2 --png-dir " + pictures).code, 0);
+    ASSERT_EQ(tests::run("stadium", small + "--frames 5 --png-every 2 --png-dir " + pictures).code, 0);
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(pictures)) names.push_back(entry.path().filename());
     std::sort(names.begin(), names.end());
@@ -150,7 +150,7 @@ TEST(StadiumProgram, SaysWhatIsWrongWithItsArguments) {
 }
 
 TEST(StadiumProgram, SaysWhichFileItCannotReadOrWrite) {
-    const test::Directory directory;
+    const tests::Directory directory;
     const std::string damaged = directory / "damaged.glb";
     std::ofstream(damaged) << "glTF, or so it says";
     const std::string trace = directory / "t.csv";
@@ -158,34 +158,34 @@ TEST(StadiumProgram, SaysWhichFileItCannotReadOrWrite) {
          {"--character " + (directory / "missing.glb"), "--character " + damaged,
           "--camera " + (directory / "missing.json"), "--trace " + (directory / "no/such/place.csv"),
           "--png " + (directory / "no/such/place.png")}) {
-        const test::Outcome outcome = test::run("stadium", small + "--frames 1 " + arguments);
+        const tests::Outcome outcome = tests::run("stadium", small + "--frames 1 " + arguments);
         EXPECT_EQ(outcome.code, 1) << arguments;
-        EXPECT_TRUE(test::one_line(outcome.err)) << outcome.err;
+        EXPECT_TRUE(tests::one_line(outcome.err)) << outcome.err;
         EXPECT_NE(outcome.err.find(arguments.substr(arguments.rfind('/') + 1)), std::string::npos) << outcome.err;
     }
-    EXPECT_EQ(test::run("stadium", small + "--frames 1 --character " + damaged + " --trace " + trace).code, 1);
+    EXPECT_EQ(tests::run("stadium", small + "--frames 1 --character " + damaged + " --trace " + trace).code, 1);
     EXPECT_FALSE(std::filesystem::exists(trace)) << "a failed run leaves no trace file";
 }
 
 TEST(StadiumProgram, SaysThatThereIsNoOpenGl) {
     // Only the software rasteriser can be taken away from a test.
-    if (test::run("stadium", small + "--frames 1 --summary -").out.find("llvmpipe") == std::string::npos)
+    if (tests::run("stadium", small + "--frames 1 --summary -").out.find("llvmpipe") == std::string::npos)
         GTEST_SKIP() << "needs Mesa's llvmpipe as the only driver";
-    const test::Directory directory;
+    const tests::Directory directory;
     setenv("MESA_GL_VERSION_OVERRIDE", "3.3", 1);
-    const test::Outcome outcome = test::run("stadium", small + "--frames 1");
+    const tests::Outcome outcome = tests::run("stadium", small + "--frames 1");
     unsetenv("MESA_GL_VERSION_OVERRIDE");
     EXPECT_EQ(outcome.code, 1);
-    EXPECT_TRUE(test::one_line(outcome.err)) << outcome.err;
+    EXPECT_TRUE(tests::one_line(outcome.err)) << outcome.err;
     EXPECT_NE(outcome.err.find("4.5"), std::string::npos) << outcome.err;
 }
 
 TEST(StadiumProgram, HelpShowsExamples) {
     for (const std::string program : {"stadium", "replay", "pointsample"}) {
-        const test::Outcome help = test::run(program, "--help");
+        const tests::Outcome help = tests::run(program, "--help");
         EXPECT_EQ(help.code, 0);
         EXPECT_NE(help.out.find("Examples:"), std::string::npos) << program;
-        const test::Outcome version = test::run(program, "--version");
+        const tests::Outcome version = tests::run(program, "--version");
         EXPECT_EQ(version.code, 0);
         EXPECT_TRUE(version.out.starts_with(program + " 0.")) << version.out;
     }

@@ -9,7 +9,7 @@
 
 #include "render/headless.h"
 
-namespace test {
+namespace tests {
 
 class GlTest : public testing::Test {
 protected:
@@ -25,4 +25,4 @@ private:
     std::unique_ptr<render::HeadlessContext> context_;
 };
 
-}  // namespace test
+}  // namespace tests

@@ -10,7 +10,7 @@
 
 namespace {
 
-using Layout = test::GlTest;
+using Layout = tests::GlTest;
 
 struct Member {
     const char* name;

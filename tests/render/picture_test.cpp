@@ -9,13 +9,13 @@
 
 namespace {
 
-using Picture = test::GlTest;
+using Picture = tests::GlTest;
 
 constexpr int width = 320, height = 240;
 
 // One person, a camera in front of them, and nothing but sky behind.
 struct Portrait {
-    test::SmallScene scene{1};
+    tests::SmallScene scene{1};
     scene::StaticMesh nothing{{{}, {}, {}}, {0, 0, 0}, {}};
     render::Renderer renderer;
 
@@ -64,7 +64,7 @@ Box box_of(const std::set<int>& pixels) {
 
 // Where the posed vertices of the only person land.
 Box projected_box(const Portrait& portrait, const render::View& view) {
-    const test::SmallScene& scene = portrait.scene;
+    const tests::SmallScene& scene = portrait.scene;
     const motion::PoseTable& table = scene.poses[0];
     const scene::Placement at = scene::place(scene.crowd, 0, scene.cast[0], 0);
     const scene::Action action = scene::act(scene.crowd, 0, scene.cast[0], table, 0);

@@ -16,8 +16,8 @@ using render::Selector;
 using sfsm::Decision;
 using sfsm::State;
 
-const test::SmallScene& small_scene() {
-    static const test::SmallScene scene(3000);
+const tests::SmallScene& small_scene() {
+    static const tests::SmallScene scene(3000);
     return scene;
 }
 
@@ -43,7 +43,7 @@ bool same_bits(const Selection& a, const Selection& b) {
 
 // Every corner of every pose's triangles of a person, projected: the slow truth about who shows.
 bool some_vertex_shows(const render::View& view, std::size_t person, std::int64_t tick) {
-    const test::SmallScene& scene = small_scene();
+    const tests::SmallScene& scene = small_scene();
     const motion::PoseTable& table = scene.poses[0];
     const scene::Placement placement = scene::place(scene.crowd, person, scene.cast[0], tick);
     const scene::Action action = scene::act(scene.crowd, person, scene.cast[0], table, tick);

@@ -12,7 +12,7 @@
 #include "scene/person.h"
 #include "scene/stadium.h"
 
-namespace test {
+namespace tests {
 
 struct SmallScene {
     motion::Character person = scene::make_person();
@@ -42,4 +42,4 @@ struct SmallScene {
     }
 };
 
-}  // namespace test
+}  // namespace tests

@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <limits>
 #include <unordered_map>
 #include <vector>
-
-#include <glm/glm.hpp>
 
 namespace tests {
 

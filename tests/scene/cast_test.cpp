@@ -1,0 +1,102 @@
+#include "scene/cast.h"
+
+#include <gtest/gtest.h>
+
+#include "scene/person.h"
+#include "tests/scene/fake_cast.h"
+
+namespace {
+
+using scene::Role;
+
+motion::Character with_clips(std::initializer_list<const char*> names) {
+    motion::Character character;
+    for (const char* name : names) character.clips.push_back({name, 1.0, {}});
+    return character;
+}
+
+// The name of the clip that a role plays while calm.
+std::string calm_clip(const motion::Character& character, Role role) {
+    const scene::Casting casting = scene::cast(character);
+    const std::uint8_t baked = casting.member.acts[static_cast<int>(role)].calm.at(0);
+    return character.clips.at(casting.clips.at(baked)).name;
+}
+
+TEST(Cast, PersonSitsInTheStandsAndStandsElsewhere) {
+    const motion::Character person = scene::make_person();
+    EXPECT_TRUE(scene::cast(person).member.sits);
+    EXPECT_EQ(calm_clip(person, Role::spectator), "sit");
+    EXPECT_EQ(calm_clip(person, Role::standing), "stand");
+    EXPECT_EQ(calm_clip(person, Role::walker), "walk");
+    EXPECT_EQ(calm_clip(person, Role::runner), "run");
+}
+
+TEST(Cast, MexicanWaveIsArmsUp) {
+    const motion::Character person = scene::make_person();
+    const scene::Casting casting = scene::cast(person);
+    const auto& excited = casting.member.acts[static_cast<int>(Role::spectator)].excited;
+    EXPECT_EQ(excited.size(), 3u);
+    EXPECT_EQ(person.clips.at(casting.clips.at(excited.at(0))).name, "cheer");
+}
+
+TEST(Cast, FindsClipsInAnyCaseAndWithPrefixes) {
+    const auto robot = with_clips({"Robot_Dance", "Robot_WalkJump", "Robot_Walking", "Robot_Running", "Robot_Sitting"});
+    EXPECT_EQ(calm_clip(robot, Role::spectator), "Robot_Walking");
+    EXPECT_EQ(calm_clip(robot, Role::runner), "Robot_Running");
+    EXPECT_FALSE(scene::cast(robot).member.sits) << "another's sitting clip doesn't know our seats";
+    const auto horse = with_clips({"AnimalArmature|Idle", "AnimalArmature|WALK"});
+    EXPECT_EQ(calm_clip(horse, Role::walker), "AnimalArmature|WALK");
+    EXPECT_EQ(calm_clip(horse, Role::runner), "AnimalArmature|WALK");
+}
+
+TEST(Cast, PlaysTheFirstClipWhereNoNameFits) {
+    const auto unnamed = with_clips({"", "Take 001"});
+    for (const Role role : {Role::spectator, Role::standing, Role::walker, Role::runner})
+        EXPECT_EQ(calm_clip(unnamed, role), "");
+}
+
+TEST(Cast, BakesEachClipOnceAndOnlyWhatIsPlayed) {
+    const auto character = with_clips({"Death", "Walk", "Idle", "Run", "Cheer", "Jump"});
+    EXPECT_EQ(scene::cast(character).clips.size(), 3u);
+}
+
+TEST(Cast, StatueHasOnePoseForEveryRole) {
+    const scene::Casting casting = scene::cast(with_clips({}));
+    EXPECT_TRUE(casting.clips.empty());
+    for (const scene::Acts& acts : casting.member.acts) EXPECT_EQ(acts.calm, (std::vector<std::uint8_t>{0}));
+}
+
+TEST(Room, SittersTakeSeats) {
+    const tests::FakeCast cast = tests::sitters();
+    const scene::Room room = scene::room_for(cast.members, cast.poses);
+    EXPECT_TRUE(room.seats);
+    EXPECT_EQ(room.width, scene::Room{}.width);
+}
+
+TEST(Room, TerracesAreAsWideAndDeepAsTheirCast) {
+    tests::FakeCast cast;
+    tests::add_stander(cast);  // 1.1 m wide and 1.2 m deep at 1.75 m
+    const scene::Room room = scene::room_for(cast.members, cast.poses);
+    EXPECT_FALSE(room.seats);
+    EXPECT_NEAR(room.width, 1.1f * 1.7f / 1.75f, 1e-5f);
+    EXPECT_NEAR(room.depth, 1.2f * 1.7f / 1.75f, 1e-5f);
+    const scene::StadiumPlan plan = scene::plan_stadium(5000, room);
+    for (std::size_t i = 1; i < plan.seats.size(); ++i) {
+        if (plan.seats[i].row != plan.seats[i - 1].row) continue;
+        EXPECT_GT(glm::distance(plan.seats[i].position, plan.seats[i - 1].position), room.width - 1e-3f);
+    }
+    for (std::size_t row = 1; row < plan.rows.size(); ++row)
+        EXPECT_GT(plan.rows[row].offset - plan.rows[row - 1].offset, room.depth - 1e-3f);
+}
+
+TEST(Room, GiantsDoNotBreakTheStadium) {
+    tests::FakeCast cast;
+    tests::add_stander(cast);
+    cast.poses[0].clip_boxes[0] = {{-50, 0, -80}, {50, 1, 80}};
+    const scene::Room room = scene::room_for(cast.members, cast.poses);
+    EXPECT_LE(room.width, 3);
+    EXPECT_LE(room.depth, 3);
+    EXPECT_EQ(scene::populate(scene::plan_stadium(3000, room), 3000, cast.members, cast.poses, 1).size(), 3000u);
+}
+
+}  // namespace
