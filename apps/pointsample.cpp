@@ -1,7 +1,6 @@
 // pointsample: a character's surface, in any pose, as an even sequence of coloured points.
 #include <sys/resource.h>
 
-#include <CLI/CLI.hpp>
 #include <bit>
 #include <chrono>
 #include <cmath>
@@ -9,7 +8,7 @@
 #include <cstring>
 #include <exception>
 #include <iomanip>
-#include <iostream>
+#include <limits>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -17,6 +16,7 @@
 #include <vector>
 
 #include "apps/output.h"
+#include "apps/program.h"
 #include "apps/progress.h"
 #include "motion/pose.h"
 #include "pointsample/gltf.h"
@@ -24,8 +24,6 @@
 
 namespace {
 
-constexpr int exit_failure = 1;
-constexpr int exit_usage = 2;
 constexpr std::uint64_t most_points = 100'000'000;
 
 struct Options {
@@ -45,20 +43,19 @@ constexpr const char* examples = R"(Examples:
 
 The PLY is binary: x y z nx ny nz red green blue a point, in the file's units. Any first part of it covers the whole
 surface evenly, and the same arguments give the same bytes.
-Exit codes: 0 done, 1 failed, 2 usage.)";
+)";
 
 void add_options(CLI::App& app, Options& options) {
-    app.set_version_flag("--version", "pointsample " GRANDSTAND_VERSION);
-    app.footer(examples);
+    apps::describe(app, examples);
     app.add_option("IN", options.input, "Character, glTF 2.0: .glb or .gltf")->required();
     app.add_option("--points", options.points, "How many points, exactly")
         ->required()
-        ->check(CLI::Range(std::uint64_t{1}, most_points));
+        ->check(apps::whole_number(1, most_points));
     app.add_option("--out", options.output, "The points as PLY (- = stdout)")->required();
     app.add_option("--pose", options.pose, "CLIP@SECONDS, the clip by name or index; default: the rest pose");
     app.add_flag("--visible-only", options.visible_only, "Replace points that cannot be seen from outside");
     app.add_option("--seed", options.seed, "Another seed, other points")
-        ->check(CLI::NonNegativeNumber)  // a number of its type would wrap around
+        ->check(apps::whole_number(0, std::numeric_limits<std::uint64_t>::max()))
         ->capture_default_str();
     app.add_option("--stats", options.stats, "Write what was found and done as JSON (- = stdout)");
 }
@@ -182,34 +179,12 @@ void check(const Options& options) {
         throw std::invalid_argument("found --out and --stats both " + options.output + ", expected two places");
 }
 
-int report(std::string message, int code) {
-    for (char& c : message) c = c == '\n' ? ' ' : c;  // CLI11 may spread a message over lines
-    std::cerr << "pointsample: " << message << '\n';
-    return code;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
     CLI::App app("Turns a character into points that cover its surface evenly.", "pointsample");
     Options options;
     add_options(app, options);
-    try {
-        app.parse(argc, argv);
-        check(options);
-    } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-        return report(std::string(error.what()) + " (see pointsample --help)", exit_usage);
-    } catch (const std::invalid_argument& error) {
-        return report(std::string(error.what()) + " (see pointsample --help)", exit_usage);
-    }
-    try {
-        run(options);
-        return 0;
-    } catch (const std::bad_alloc&) {
-        return report("found too little memory for " + std::to_string(options.points) + " points, expected enough",
-                      exit_failure);
-    } catch (const std::exception& error) {
-        return report(error.what(), exit_failure);
-    }
+    return apps::run_program(
+        app, argc, argv, [&] { check(options); }, [&] { run(options); });
 }
