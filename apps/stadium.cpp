@@ -131,7 +131,7 @@ private:
         row.target_ms = target_scale_ * options_.target.at(frame);
         row.range = selector_.visible_range(view);
         row.decision = options_.state ? fixed_decision(options_, *options_.state, row.range)
-                                      : controller_->decide(row.target_ms, row.range);
+                                      : controller_->decide({row.target_ms, row.range});
         timer_.begin(frame);
         const render::Selection& selection = selector_.select(view, row.decision, clock_.tick(), last_tick_);
         renderer_.draw(view, selection, row.decision.splat_size);

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "sfsm/decision.h"
+#include "sfsm/forecast.h"
 
 namespace sfsm {
 
@@ -19,6 +20,13 @@ struct Status {
     const char* reason = "start";  // why the decision is what it is: static string
 };
 
+// What is known of a frame before it is drawn.
+struct FrameRequest {
+    double target_ms = 0;                // > 0
+    double range = 0;                    // L [m] > 0: people are visible up to this view depth
+    const Forecast* forecast = nullptr;  // none: the renderer can't say
+};
+
 class Controller {
 public:
     virtual ~Controller() = default;
@@ -26,9 +34,8 @@ public:
     // A time has arrived; in frame order, possibly frames late.
     virtual void observe(const FrameSample& sample) = 0;
 
-    // The decision for the next frame, at `target_ms` > 0 and with people visible up to L = `range` > 0 [m] view depth.
-    // Unusable arguments leave the last usable ones in force.
-    virtual Decision decide(double target_ms, double range) = 0;
+    // The decision for the next frame. Unusable numbers leave the last usable ones in force.
+    virtual Decision decide(const FrameRequest& request) = 0;
 
     virtual const Status& status() const = 0;
 };

@@ -250,11 +250,11 @@ void PaperLaw::observe(const FrameSample& sample) {
     is_answered_ = is_new_ = true;
 }
 
-Decision PaperLaw::decide(double target_ms, double range) {
-    if (is_usable(range)) memory_.range = range;
+Decision PaperLaw::decide(const FrameRequest& request) {
+    if (is_usable(request.range)) memory_.range = request.range;
     bool has_new_target = false;
-    if (is_usable(target_ms) && target_ms != memory_.target_ms) {
-        memory_.target_ms = status_.target_ms = target_ms;
+    if (is_usable(request.target_ms) && request.target_ms != memory_.target_ms) {
+        memory_.target_ms = status_.target_ms = request.target_ms;
         memory_.patience = constants_.first_patience;
         memory_.fast_times = 0;
         has_new_target = true;

@@ -97,7 +97,7 @@ public:
     explicit PaperLaw(const PaperConstants& constants = {});  // throws as validate() does
 
     void observe(const FrameSample& sample) override;
-    Decision decide(double target_ms, double range) override;
+    Decision decide(const FrameRequest& request) override;
     const Status& status() const override { return status_; }
     const PaperMemory& memory() const { return memory_; }
 

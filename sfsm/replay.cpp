@@ -19,7 +19,7 @@ std::vector<Decision> replay_decisions(Controller& law, std::span<const TraceRow
             const TraceRow& past = rows[arrived];
             if (!std::isnan(past.frame_ms)) law.observe({past.frame, past.frame_ms, decisions[arrived], past.work});
         }
-        decisions.push_back(law.decide(row.target_ms, row.range));
+        decisions.push_back(law.decide({row.target_ms, row.range}));
     }
     return decisions;
 }

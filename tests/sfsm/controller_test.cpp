@@ -14,7 +14,7 @@ TEST(Laws, EveryListedNameMakesALawThatStartsOriginal) {
     for (const std::string_view name : law_names()) {
         const auto law = make_controller(name);
         ASSERT_NE(law, nullptr) << name;
-        EXPECT_EQ(law->decide(16.6, 100), Decision{}) << name;
+        EXPECT_EQ(law->decide({16.6, 100}), Decision{}) << name;
         EXPECT_EQ(law->status().target_ms, 16.6) << name;
     }
 }

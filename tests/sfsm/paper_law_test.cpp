@@ -182,7 +182,7 @@ TEST(PaperLaw, ANewTargetIsJudgedInTheSameFrameByTheNewestTime) {
     const Plant plant{600, 300, 35, 393};
     const auto rows = run(law, {exact(plant), constant(1000), 30});
     EXPECT_EQ(rows.back().decision.state, State::original);
-    EXPECT_EQ(law.decide(300, test_range).state, State::slowed) << "no sample between the two decisions";
+    EXPECT_EQ(law.decide({300, test_range}).state, State::slowed) << "no sample between the two decisions";
 }
 
 TEST(PaperLaw, LearnedPairsOutliveAChangeOfTarget) {
@@ -190,25 +190,25 @@ TEST(PaperLaw, LearnedPairsOutliveAChangeOfTarget) {
     PaperLaw law;
     run(law, {exact(plant), constant(199), 2});  // D = L has been drawn
     law.observe({1, 200, {State::slowed, test_range, 0}, {}});
-    law.decide(199, test_range);  // 5/6 L
+    law.decide({199, test_range});  // 5/6 L
     law.observe({2, 183.3, {State::slowed, 5.0 / 6 * test_range, 0}, {}});
-    const Decision decision = law.decide(170, test_range);  // another target in the frame the time arrives
+    const Decision decision = law.decide({170, test_range});  // another target in the frame the time arrives
     EXPECT_EQ(decision.state, State::slowed);
     EXPECT_NEAR(decision.motion_distance, 140, 1) << "the secant through both pairs, for the new target";
 }
 
 TEST(PaperLaw, OneTimeIsNeverSteppedOnTwiceHoweverLate) {
     PaperLaw law;
-    const Decision first = law.decide(100, test_range);
+    const Decision first = law.decide({100, test_range});
     law.observe({0, 200, first, {}});
-    const Decision second = law.decide(100, test_range);
+    const Decision second = law.decide({100, test_range});
     ASSERT_EQ(second.state, State::slowed);
     for (int late = 1; late <= most_delay; ++late) {
         law.observe({late, 200, first, {}});  // drawn before the decision that answers it
-        EXPECT_EQ(law.decide(100, test_range), second) << late << " frames late";
+        EXPECT_EQ(law.decide({100, test_range}), second) << late << " frames late";
     }
     law.observe({most_delay + 1, 200, second, {}});
-    EXPECT_NE(law.decide(100, test_range), second);
+    EXPECT_NE(law.decide({100, test_range}), second);
 }
 
 TEST(PaperLaw, LateTimesAreRecognisedWhileTheRangeMoves) {
@@ -225,7 +225,7 @@ TEST(PaperLaw, LateTimesAreRecognisedWhileTheRangeMoves) {
         TraceRow row;
         row.frame = frame;
         row.range = uniform(random, 30, 300);
-        row.decision = law.decide(60, row.range);
+        row.decision = law.decide({60, row.range});
         row.frame_ms = plant.time(row.decision, row.range);
         rows.push_back(row);
     }
@@ -235,7 +235,7 @@ TEST(PaperLaw, LateTimesAreRecognisedWhileTheRangeMoves) {
 
 // A law driven by hand: each time answers the newest decision.
 struct Driven {
-    explicit Driven(double target_ms) : target(target_ms), decision(law.decide(target, range)) {}
+    explicit Driven(double target_ms) : target(target_ms), decision(law.decide({target, range})) {}
 
     PaperLaw law;
     double target;
@@ -244,10 +244,10 @@ struct Driven {
 
     const Decision& answer(double ms) {
         law.observe({0, ms, decision, {}});
-        return decision = law.decide(target, range);
+        return decision = law.decide({target, range});
     }
-    const Decision& retarget(double ms) { return decision = law.decide(target = ms, range); }
-    const Decision& reach(double metres) { return decision = law.decide(target, range = metres); }
+    const Decision& retarget(double ms) { return decision = law.decide({target = ms, range}); }
+    const Decision& reach(double metres) { return decision = law.decide({target, range = metres}); }
 };
 
 // State 2 at the smallest splats, after returns to triangles that failed.
@@ -338,22 +338,22 @@ TEST(PaperLaw, ALowerTargetIsNotMistakenForLongPatience) {
 
 TEST(PaperLaw, BadTimesAreCountedAndChangeNothing) {
     PaperLaw law;
-    const Decision first = law.decide(100, test_range);
+    const Decision first = law.decide({100, test_range});
     for (const double ms :
          {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 0.0, -1.0}) {
         law.observe({0, ms, first, {}});
     }
     EXPECT_EQ(law.status().bad_samples, 4);
     EXPECT_EQ(law.status().last_ms, 0);
-    EXPECT_EQ(law.decide(100, test_range), first);
+    EXPECT_EQ(law.decide({100, test_range}), first);
 }
 
 TEST(PaperLaw, UnusableArgumentsLeaveTheLastOnesInForce) {
     PaperLaw law;
-    EXPECT_EQ(law.decide(NAN, -1), Decision{});
-    const Decision first = law.decide(100, test_range);
+    EXPECT_EQ(law.decide({NAN, -1}), Decision{});
+    const Decision first = law.decide({100, test_range});
     law.observe({0, 200, first, {}});
-    const Decision second = law.decide(-5, std::numeric_limits<double>::infinity());
+    const Decision second = law.decide({-5, std::numeric_limits<double>::infinity()});
     EXPECT_EQ(second, (Decision{State::slowed, test_range, 0}));
     EXPECT_EQ(law.status().target_ms, 100);
 }
@@ -402,7 +402,7 @@ TEST(PaperLaw, NeverLeavesTheVisibleRange) {
             if (random() % 4 != 0) law.observe(sample);
             const double next_range = hostile(random, test_range);
             if (std::isfinite(next_range) && next_range > 0) range = next_range;
-            drawn = law.decide(random() % 8 == 0 ? hostile(random, 80) : 80, next_range);
+            drawn = law.decide({random() % 8 == 0 ? hostile(random, 80) : 80, next_range});
             ASSERT_NO_FATAL_FAILURE(
                 expect_in_range(drawn, range, "seed " + std::to_string(seed) + " frame " + std::to_string(frame)));
             ASSERT_EQ(drawn, law.status().decision);
@@ -476,7 +476,7 @@ TEST(PaperTable, EveryRowIsTaken) {
         for (int frame = 0; frame < 200; ++frame) {
             if (frame % 50 == 0) target = uniform(random, 5, 300);
             if (frame > 0) law.observe({frame - 1, ms, drawn, {}});
-            drawn = law.decide(target, test_range);
+            drawn = law.decide({target, test_range});
             // Now and then a frame meets its target exactly, which no continuous plant does.
             ms = random() % 8 == 0 ? target : plant.time(drawn, test_range);
             reasons.insert(law.status().reason);

@@ -59,7 +59,7 @@ inline std::vector<TraceRow> run(Controller& law, const Loop& loop) {
         row.frame = frame;
         row.target_ms = loop.target(frame);
         row.range = loop.range;
-        row.decision = law.decide(row.target_ms, row.range);
+        row.decision = law.decide({row.target_ms, row.range});
         row.frame_ms = loop.time(frame, row.decision);
         rows.push_back(row);
     }
