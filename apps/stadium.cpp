@@ -111,10 +111,10 @@ private:
     // Shaders compile at the first draw that needs them: draw both representations before any time is taken.
     void warm_up() {
         const render::View view = view_now();
-        const double range = selector_.visible_range(view);
+        const float range = selector_.survey(view, 0).range;
         for (const sfsm::State state : {sfsm::State::original, sfsm::State::points}) {
             const sfsm::Decision decision = fixed_decision(options_, state, range);
-            renderer_.draw(view, selector_.select(view, decision, 0, -1), decision.splat_size);
+            renderer_.draw(view, selector_.select(decision, -1), decision.splat_size);
         }
         renderer_.read_image();  // waits for them
     }
@@ -129,11 +129,12 @@ private:
         sfsm::TraceRow row;
         row.frame = frame;
         row.target_ms = target_scale_ * options_.target.at(frame);
-        row.range = selector_.visible_range(view);
-        row.decision = options_.state ? fixed_decision(options_, *options_.state, row.range)
-                                      : controller_->decide({row.target_ms, row.range});
         timer_.begin(frame);
-        const render::Selection& selection = selector_.select(view, row.decision, clock_.tick(), last_tick_);
+        const render::Survey& survey = selector_.survey(view, clock_.tick());
+        row.range = survey.range;
+        row.decision = options_.state ? fixed_decision(options_, *options_.state, row.range)
+                                      : controller_->decide({row.target_ms, row.range, &survey.forecast});
+        const render::Selection& selection = selector_.select(row.decision, last_tick_);
         renderer_.draw(view, selection, row.decision.splat_size);
         const auto time = timer_.end();
         row.work = selection.work;

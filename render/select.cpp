@@ -11,9 +11,27 @@ namespace render {
 namespace {
 
 constexpr std::uint32_t max_level = 32;
+constexpr float fewest_points = 2;  // about one of them faces the camera
 
 std::int16_t snorm16(float value) {
     return static_cast<std::int16_t>(std::lround(value * 32767.0f));
+}
+
+// Mean speed of the surface over all poses of all clips [model units/s]; every so many vertices stand for all.
+float mean_speed(const motion::PoseTable& table) {
+    constexpr int vertex_stride = 7;
+    double distance = 0, ticks = 0;
+    for (const motion::ClipPoses& clip : table.clips) {
+        for (int pose = clip.first_pose; pose + 1 < clip.first_pose + clip.pose_count; ++pose) {
+            const motion::PosedVertex* from = &table.vertices[static_cast<std::size_t>(pose) * table.vertex_count];
+            for (int v = 0; v < table.vertex_count; v += vertex_stride) {
+                distance += glm::distance(motion::unpack_position(from[v], table.box),
+                                          motion::unpack_position(from[v + table.vertex_count], table.box));
+                ticks += clip.ticks_per_pose;
+            }
+        }
+    }
+    return ticks > 0 ? static_cast<float>(distance / ticks * motion::ticks_per_second) : 0.0f;
 }
 
 }  // namespace
@@ -30,35 +48,47 @@ std::uint32_t level_for(float points) {
 }
 
 Selector::Selector(const scene::Crowd& crowd, std::span<const Figure> figures, SelectOptions options)
-    : crowd_(crowd), figures_(figures.begin(), figures.end()), options_(options), candidates_(crowd.size()) {
+    : crowd_(crowd),
+      figures_(figures.begin(), figures.end()),
+      options_(options),
+      depth_(crowd.size()),
+      candidates_(crowd.size()) {
     std::uint32_t bucket_count = 0;
     for (const Figure& figure : figures_) {
         const auto worth = static_cast<float>(figure.triangle_count) / options_.triangles_per_point;
         const float most = std::min(worth, static_cast<float>(figure.poses->point_count));
-        Buckets buckets;
-        buckets.first = bucket_count;
-        buckets.levels = 1;
-        while (buckets.levels <= max_level && static_cast<float>(level_points(buckets.levels)) <= most)
-            ++buckets.levels;
+        Kind kind;
+        kind.first_bucket = bucket_count;
+        kind.levels = 1;
+        while (kind.levels <= max_level && static_cast<float>(level_points(kind.levels)) <= most) ++kind.levels;
         const motion::Bounds& box = figure.poses->box;
         const glm::vec3 reach = glm::max(glm::abs(box.min), glm::abs(box.max));
-        buckets.center = glm::vec3(0.0f, box.center().y, 0.0f);
-        buckets.radius = glm::length(glm::vec3(reach.x, 0.5f * box.size().y, reach.z));
-        bucket_count += buckets.levels * static_cast<std::uint32_t>(figure.poses->pose_count);
-        buckets_.push_back(buckets);
+        kind.center = glm::vec3(0.0f, box.center().y, 0.0f);
+        kind.radius = glm::length(glm::vec3(reach.x, 0.5f * box.size().y, reach.z));
+        kind.speed = mean_speed(*figure.poses);
+        bucket_count += kind.levels * static_cast<std::uint32_t>(figure.poses->pose_count);
+        kinds_.push_back(kind);
     }
     bucket_begin_.resize(bucket_count + 1);
+    std::vector<Forecaster::Kind> priced;
+    for (std::size_t i = 0; i < kinds_.size(); ++i)
+        priced.push_back({figures_[i].triangle_count, options_.density,
+                          [this, i](float points) { return level_points(level_of(i, points)); }});
+    forecaster_ = Forecaster(std::move(priced));
 }
 
-float Selector::visible_range(const View& view) const {
-    float range = 1.0f;
-    for (const scene::CrowdBlock& block : crowd_.blocks)
-        if (overlap(view, block.box) != Overlap::outside) range = std::max(range, farthest_depth(view, block.box));
-    return range;
+template <typename Visit>
+void Selector::for_each_visible(Visit visit) const {
+    for (const std::uint32_t block_index : visible_blocks_) {
+        const scene::CrowdBlock& block = crowd_.blocks[block_index];
+        for (std::size_t person = block.first; person < block.first + block.count; ++person)
+            if (depth_[person] != unseen) visit(person);
+    }
 }
 
-const Selection& Selector::select(const View& view, const sfsm::Decision& decision, std::int64_t tick,
-                                  std::int64_t last_tick) {
+const Survey& Selector::survey(const View& view, std::int64_t tick) {
+    view_ = view;
+    tick_ = tick;
     visible_blocks_.clear();
     block_inside_.clear();
     for (std::uint32_t block = 0; block < crowd_.blocks.size(); ++block) {
@@ -67,76 +97,99 @@ const Selection& Selector::select(const View& view, const sfsm::Decision& decisi
         visible_blocks_.push_back(block);
         block_inside_.push_back(seen == Overlap::inside);
     }
-    const FrameView frame{view, decision, tick, last_tick};
     tbb::parallel_for(
-        std::size_t{0}, visible_blocks_.size(),
-        [&](std::size_t i) { consider_block(static_cast<std::uint32_t>(i), frame); }, tbb::static_partitioner());
+        std::size_t{0}, visible_blocks_.size(), [&](std::size_t i) { find_visible(i); }, tbb::static_partitioner());
+    forecast();
+    return survey_;
+}
+
+void Selector::find_visible(std::size_t block_index) {
+    const scene::CrowdBlock& block = crowd_.blocks[visible_blocks_[block_index]];
+    const bool cull = !block_inside_[block_index];
+    for (std::size_t person = block.first; person < block.first + block.count; ++person) {
+        const std::size_t character = crowd_.character[person];
+        const Figure& figure = figures_[character];
+        const Kind& kind = kinds_[character];
+        const float scale = crowd_.height[person] / figure.poses->rest_height;
+        const scene::Placement now = scene::place(crowd_, person, *figure.member, tick_);
+        const glm::vec3 center = view_.relative(now.position) + scale * kind.center;
+        const bool hidden = cull && !sphere_visible(view_, center, scale * kind.radius);
+        depth_[person] = hidden ? unseen : std::max(view_.depth(center), near_plane);
+    }
+}
+
+void Selector::forecast() {
+    survey_.range = 1.0f;
+    for_each_visible([&](std::size_t person) { survey_.range = std::max(survey_.range, depth_[person]); });
+    forecaster_.begin(survey_.range);
+    for_each_visible([&](std::size_t person) {
+        const std::size_t character = crowd_.character[person];
+        const float scale = crowd_.height[person] / figures_[character].poses->rest_height;
+        const float speed_px = kinds_[character].speed * scale * view_.pixels_per_metre(depth_[person]);
+        forecaster_.add(character, depth_[person], points_at_unit_splat(person), speed_px);
+    });
+    survey_.forecast = forecaster_.finish(options_.theta);
+}
+
+const Selection& Selector::select(const sfsm::Decision& decision, std::int64_t last_tick) {
+    const auto consider_block = [&](std::size_t i) {
+        const scene::CrowdBlock& block = crowd_.blocks[visible_blocks_[i]];
+        for (std::size_t person = block.first; person < block.first + block.count; ++person)
+            if (depth_[person] != unseen) candidates_[person] = consider(person, decision, last_tick);
+    };
+    tbb::parallel_for(std::size_t{0}, visible_blocks_.size(), consider_block, tbb::static_partitioner());
     gather();
     return selection_;
 }
 
-void Selector::consider_block(std::uint32_t index, const FrameView& frame) {
-    const scene::CrowdBlock& block = crowd_.blocks[visible_blocks_[index]];
-    const bool cull = !block_inside_[index];
-    for (std::size_t person = block.first; person < block.first + block.count; ++person)
-        candidates_[person] = consider(person, cull, frame);
+float Selector::points_at_unit_splat(std::size_t person) const {
+    const Figure& figure = figures_[crowd_.character[person]];
+    const float scale = crowd_.height[person] / figure.poses->rest_height;
+    const float pixels = scale * view_.pixels_per_metre(depth_[person]);
+    return options_.density * figure.area * pixels * pixels;
 }
 
-Selector::Candidate Selector::consider(std::size_t person, bool cull, const FrameView& frame) const {
+std::uint32_t Selector::level_of(std::size_t character, float points) const {
+    const std::uint32_t level = level_for(std::max(points, fewest_points));
+    return level < kinds_[character].levels ? level : 0;
+}
+
+// Where the person is now decides whether they are seen and how often they move; both change little in a period.
+Selector::Candidate Selector::consider(std::size_t person, const sfsm::Decision& decision,
+                                       std::int64_t last_tick) const {
     const std::size_t character = crowd_.character[person];
     const Figure& figure = figures_[character];
-    const Buckets& buckets = buckets_[character];
-    const float scale = crowd_.height[person] / figure.poses->rest_height;
-
-    // Where the person is now decides whether they are seen and how often they move; both change little in a period.
-    const scene::Placement now = scene::place(crowd_, person, *figure.member, frame.tick);
-    const glm::vec3 center = frame.view.relative(now.position) + scale * buckets.center;
-    if (cull && !sphere_visible(frame.view, center, scale * buckets.radius)) return {not_drawn, false, {}};
-
-    const float depth = std::max(frame.view.depth(center), near_plane);
-    std::int64_t due = frame.tick;
-    if (frame.decision.state != sfsm::State::original) {
+    std::int64_t due = tick_;
+    if (decision.state != sfsm::State::original) {
         const int period =
-            motion::update_period(depth, static_cast<float>(frame.decision.motion_distance), options_.theta);
-        due = motion::due_tick(frame.tick, period, crowd_.hash[person]);
+            motion::update_period(depth_[person], static_cast<float>(decision.motion_distance), options_.theta);
+        due = motion::due_tick(tick_, period, crowd_.hash[person]);
     }
-    const scene::Placement placement = due == frame.tick ? now : scene::place(crowd_, person, *figure.member, due);
+    std::uint32_t level = 0;
+    if (decision.state == sfsm::State::points && decision.splat_size > 0) {
+        const auto splat_area = static_cast<float>(decision.splat_size * decision.splat_size);
+        level = level_of(character, points_at_unit_splat(person) / splat_area);
+    }
     const scene::Action action = scene::act(crowd_, person, *figure.member, *figure.poses, due);
-    const int pose = figure.poses->pose_at(action.clip, action.clip_tick);
-
-    const std::uint32_t level = level_of(character, scale, depth, frame);
+    const auto pose = static_cast<std::uint32_t>(figure.poses->pose_at(action.clip, action.clip_tick));
+    const scene::Placement placement = scene::place(crowd_, person, *figure.member, due);
     Candidate candidate;
     candidate.bucket =
-        buckets.first + level * static_cast<std::uint32_t>(figure.poses->pose_count) + static_cast<std::uint32_t>(pose);
-    candidate.moved = due > frame.last_tick;
-    candidate.instance = {frame.view.relative(placement.position), scale, snorm16(std::sin(placement.yaw)),
-                          snorm16(std::cos(placement.yaw)), crowd_.palette[person]};
+        kinds_[character].first_bucket + level * static_cast<std::uint32_t>(figure.poses->pose_count) + pose;
+    candidate.moved = due > last_tick;
+    candidate.instance = {view_.relative(placement.position), crowd_.height[person] / figure.poses->rest_height,
+                          snorm16(std::sin(placement.yaw)), snorm16(std::cos(placement.yaw)), crowd_.palette[person]};
     return candidate;
-}
-
-std::uint32_t Selector::level_of(std::size_t character, float scale, float depth, const FrameView& frame) const {
-    const sfsm::Decision& decision = frame.decision;
-    if (decision.state != sfsm::State::points || decision.splat_size <= 0) return 0;
-    const float pixels = scale * frame.view.pixels_per_metre(depth) / static_cast<float>(decision.splat_size);
-    constexpr float fewest_points = 2;  // about one of them faces the camera
-    const float points = options_.density * figures_[character].area * pixels * pixels;
-    const std::uint32_t level = level_for(std::max(points, fewest_points));
-    return level < buckets_[character].levels ? level : 0;
 }
 
 // Counting sort of the candidates by bucket.
 void Selector::gather() {
     std::fill(bucket_begin_.begin(), bucket_begin_.end(), 0u);
     selection_.work = {};
-    for (std::uint32_t block_index : visible_blocks_) {
-        const scene::CrowdBlock& block = crowd_.blocks[block_index];
-        for (std::size_t person = block.first; person < block.first + block.count; ++person) {
-            const Candidate& candidate = candidates_[person];
-            if (candidate.bucket == not_drawn) continue;
-            ++bucket_begin_[candidate.bucket + 1];
-            selection_.work.motion_updates += candidate.moved;
-        }
-    }
+    for_each_visible([&](std::size_t person) {
+        ++bucket_begin_[candidates_[person].bucket + 1];
+        selection_.work.motion_updates += candidates_[person].moved;
+    });
     for (std::size_t bucket = 1; bucket < bucket_begin_.size(); ++bucket)
         bucket_begin_[bucket] += bucket_begin_[bucket - 1];
 
@@ -145,20 +198,16 @@ void Selector::gather() {
     for (std::uint32_t character = 0; character < figures_.size(); ++character) batch(character);
 
     selection_.instances.resize(bucket_begin_.back());
-    for (std::uint32_t block_index : visible_blocks_) {
-        const scene::CrowdBlock& block = crowd_.blocks[block_index];
-        for (std::size_t person = block.first; person < block.first + block.count; ++person) {
-            const Candidate& candidate = candidates_[person];
-            if (candidate.bucket != not_drawn)
-                selection_.instances[bucket_begin_[candidate.bucket]++] = candidate.instance;
-        }
-    }
+    for_each_visible([&](std::size_t person) {
+        const Candidate& candidate = candidates_[person];
+        selection_.instances[bucket_begin_[candidate.bucket]++] = candidate.instance;
+    });
 }
 
 void Selector::batch(std::uint32_t character) {
     const Figure& figure = figures_[character];
-    std::uint32_t bucket = buckets_[character].first;
-    for (std::uint32_t level = 0; level < buckets_[character].levels; ++level) {
+    std::uint32_t bucket = kinds_[character].first_bucket;
+    for (std::uint32_t level = 0; level < kinds_[character].levels; ++level) {
         const std::uint32_t points = level_points(level);
         for (std::uint32_t pose = 0; pose < static_cast<std::uint32_t>(figure.poses->pose_count); ++pose, ++bucket) {
             const std::uint32_t count = bucket_begin_[bucket + 1] - bucket_begin_[bucket];

@@ -8,6 +8,7 @@
 
 #include "motion/pose_table.h"
 #include "motion/schedule.h"
+#include "render/forecaster.h"
 #include "render/view.h"
 #include "scene/crowd.h"
 #include "sfsm/decision.h"
@@ -55,54 +56,65 @@ struct Selection {
     sfsm::Work work;
 };
 
-// Reuses its memory from frame to frame: after the first frames nothing is allocated.
+// What a view shows, before anything is decided about it.
+struct Survey {
+    float range = 1;          // L [m]: the view depth of the farthest visible person, at least 1
+    sfsm::Forecast forecast;  // valid until the next survey
+};
+
+// A frame is surveyed, then selected from. Reuses its memory: after the first frames nothing is allocated.
 class Selector {
 public:
     // All must outlive the selector. `figures` in the order of Crowd::character.
     Selector(const scene::Crowd& crowd, std::span<const Figure> figures, SelectOptions options = {});
 
-    // L: the farthest view depth of a visible block [m], at least 1.
-    float visible_range(const View& view) const;
+    // Finds the visible people at `tick`, and what drawing them would cost.
+    const Survey& survey(const View& view, std::int64_t tick);
 
-    // The people to draw at `tick` under `decision`; those whose motion was due since `last_tick` are counted as moved.
-    const Selection& select(const View& view, const sfsm::Decision& decision, std::int64_t tick,
-                            std::int64_t last_tick);
+    // The surveyed people under `decision`; those whose motion was due since `last_tick` are counted as moved.
+    const Selection& select(const sfsm::Decision& decision, std::int64_t last_tick);
 
 private:
     struct Candidate {
-        std::uint32_t bucket;  // not_drawn, or the bucket of its batch
+        std::uint32_t bucket;  // of its batch
         bool moved;
         Instance instance;
     };
-    static constexpr std::uint32_t not_drawn = ~0u;
-    // A character's buckets: level by level (0 = triangles), in each a bucket a pose.
-    struct Buckets {
-        std::uint32_t first = 0;
+    // A character as people of it are judged: its buckets, level by level (0 = triangles), in each a bucket a pose.
+    struct Kind {
+        std::uint32_t first_bucket = 0;
         std::uint32_t levels = 0;
         glm::vec3 center{
             0.0f};  // of a ball around the character in every pose, on the axis it turns about [model units]
         float radius = 0;
+        float speed = 0;  // of the surface, mean over all poses [model units/s]
     };
-    // What every person of one frame is judged by.
-    struct FrameView {
-        const View& view;
-        const sfsm::Decision& decision;
-        std::int64_t tick, last_tick;
-    };
+    static constexpr float unseen = -1.0f;
 
-    void consider_block(std::uint32_t block, const FrameView& frame);
-    Candidate consider(std::size_t person, bool cull, const FrameView& frame) const;
-    std::uint32_t level_of(std::size_t character, float scale, float depth, const FrameView& frame) const;
+    void find_visible(std::size_t block_index);
+    void forecast();
+    Candidate consider(std::size_t person, const sfsm::Decision& decision, std::int64_t last_tick) const;
+    std::uint32_t level_of(std::size_t character, float points) const;
+    float points_at_unit_splat(std::size_t person) const;
     void gather();
     void batch(std::uint32_t character);
+    template <typename Visit>
+    void for_each_visible(Visit visit) const;
 
     const scene::Crowd& crowd_;
     std::vector<Figure> figures_;
     SelectOptions options_;
-    std::vector<Buckets> buckets_;  // per character
+    std::vector<Kind> kinds_;
+
+    View view_;
+    std::int64_t tick_ = 0;
     std::vector<std::uint32_t> visible_blocks_;
-    std::vector<bool> block_inside_;           // per visible block: no need to cull its people one by one
-    std::vector<Candidate> candidates_;        // one a person; only those of visible blocks are of this frame
+    std::vector<std::uint8_t> block_inside_;  // per visible block: no need to cull its people one by one
+    std::vector<float> depth_;                // [m] per person of visible blocks; unseen: not in view
+    Forecaster forecaster_;
+    Survey survey_;
+
+    std::vector<Candidate> candidates_;        // one a person; only visible people's are of this frame
     std::vector<std::uint32_t> bucket_begin_;  // per bucket, then the total
     Selection selection_;
 };

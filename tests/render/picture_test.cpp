@@ -31,7 +31,8 @@ struct Portrait {
     }
     render::Image draw(const render::View& view, const sfsm::Decision& decision) {
         render::Selector selector(scene.crowd, scene.figures());
-        renderer.draw(view, selector.select(view, decision, 0, -1), decision.splat_size);
+        selector.survey(view, 0);
+        renderer.draw(view, selector.select(decision, -1), decision.splat_size);
         return renderer.read_image();
     }
     render::Image draw_nobody(const render::View& view) {

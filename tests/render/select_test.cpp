@@ -29,9 +29,14 @@ Decision points_of(double splat_size, double motion_distance = 50) {
     return {State::points, motion_distance, splat_size};
 }
 
+const Selection& select_at(Selector& selector, const render::View& view, const Decision& decision, std::int64_t tick) {
+    selector.survey(view, tick);
+    return selector.select(decision, tick - 1);
+}
+
 Selection select_once(const render::View& view, const Decision& decision, std::int64_t tick = 100) {
     Selector selector(small_scene().crowd, small_scene().figures());
-    return selector.select(view, decision, tick, tick - 1);
+    return select_at(selector, view, decision, tick);
 }
 
 bool same_bits(const Selection& a, const Selection& b) {
@@ -135,9 +140,8 @@ TEST(Selection, IsTheSameOnAnyNumberOfThreads) {
 
 TEST(Selection, NeedsNoFrameBeforeIt) {
     Selector selector(small_scene().crowd, small_scene().figures());
-    for (std::int64_t tick = 90; tick < 100; ++tick)
-        selector.select(view_of("close"), points_of(3, 20), tick, tick - 1);
-    const Selection after_others = selector.select(view_of("still"), points_of(2), 100, 99);
+    for (std::int64_t tick = 90; tick < 100; ++tick) select_at(selector, view_of("close"), points_of(3, 20), tick);
+    const Selection after_others = select_at(selector, view_of("still"), points_of(2), 100);
     EXPECT_TRUE(same_bits(after_others, select_once(view_of("still"), points_of(2))));
 }
 
@@ -161,7 +165,7 @@ TEST(Selection, MovesEachPersonOnceAPeriod) {
                       {.theta = 10.0f});  // everybody at the longest period
     std::int64_t moved = 0, people = 0;
     for (std::int64_t tick = 100; tick < 100 + motion::max_period; ++tick) {
-        const Selection& selection = selector.select(view_of("remote"), decision, tick, tick - 1);
+        const Selection& selection = select_at(selector, view_of("remote"), decision, tick);
         moved += selection.work.motion_updates;
         people = selection.work.people;
         // Staggered: no frame moves more than twice its share of the people.
@@ -172,18 +176,72 @@ TEST(Selection, MovesEachPersonOnceAPeriod) {
 
 TEST(Selection, NothingMovesWhileTimeStandsStill) {
     Selector selector(small_scene().crowd, small_scene().figures());
-    EXPECT_EQ(selector.select(view_of("still"), {}, 50, 50).work.motion_updates, 0);
+    selector.survey(view_of("still"), 50);
+    EXPECT_EQ(selector.select({}, 50).work.motion_updates, 0);
 }
 
 TEST(Selection, RangeReachesTheFarthestPersonInView) {
     for (const char* preset : {"still", "close", "medium", "remote"}) {
         const render::View view = view_of(preset);
         Selector selector(small_scene().crowd, small_scene().figures());
-        const float range = selector.visible_range(view);
+        const float range = selector.survey(view, 0).range;
         float farthest = 0;
-        for (const render::Instance& instance : selector.select(view, {}, 0, -1).instances)
+        for (const render::Instance& instance : selector.select({}, -1).instances)
             farthest = std::max(farthest, view.depth(instance.position));
-        EXPECT_GE(range, farthest) << preset;
+        constexpr float half_a_body = 1.0f;  // [m] depth is that of a person's middle, an instance that of the feet
+        EXPECT_NEAR(range, farthest, half_a_body) << preset;
+    }
+}
+
+// What a forecast says of a step, against what selecting it does. Forecasts count people in bins of depth and size, so
+// they are right on average: a few hundred people leave some per cent.
+constexpr double bin_error = 0.08;
+
+TEST(Forecast, CountsWhatSelectionDraws) {
+    for (const char* preset : {"still", "close", "medium", "remote"}) {
+        Selector selector(small_scene().crowd, small_scene().figures());
+        const sfsm::Forecast forecast = selector.survey(view_of(preset), 100).forecast;
+        EXPECT_EQ(forecast.splats.front().size, 0);
+        for (const sfsm::SplatStep& step : forecast.splats) {
+            const Decision decision = step.size == 0 ? Decision{} : points_of(step.size);
+            const sfsm::Work work = selector.select(decision, 99).work;
+            EXPECT_EQ(forecast.people, work.people);
+            // In units of price: what changes from triangles to points is counted in both.
+            const double price = 2.0 * static_cast<double>(work.points) + static_cast<double>(work.triangles);
+            const double foreseen = 2.0 * static_cast<double>(step.points) + static_cast<double>(step.triangles);
+            EXPECT_NEAR(foreseen, price, bin_error * price) << preset << ", S = " << step.size;
+        }
+    }
+}
+
+TEST(Forecast, CountsWhoMovesOnAverage) {
+    Selector selector(small_scene().crowd, small_scene().figures());
+    const sfsm::Forecast forecast = selector.survey(view_of("still"), 100).forecast;
+    for (const sfsm::MotionStep& step : forecast.motion) {
+        std::int64_t moved = 0;
+        constexpr std::int64_t ticks = 2 * motion::max_period;
+        for (std::int64_t tick = 100; tick < 100 + ticks; ++tick)
+            moved += select_at(selector, view_of("still"), {State::slowed, step.distance, 0}, tick).work.motion_updates;
+        const double mean = static_cast<double>(moved) / ticks;
+        EXPECT_NEAR(static_cast<double>(step.updates), mean, bin_error * mean) << "D = " << step.distance;
+    }
+}
+
+TEST(Forecast, WorkShrinksAndLossGrowsAlongTheSteps) {
+    Selector selector(small_scene().crowd, small_scene().figures());
+    for (const char* preset : {"still", "close", "medium", "remote"}) {
+        const sfsm::Forecast forecast = selector.survey(view_of(preset), 100).forecast;
+        for (std::size_t i = 1; i < forecast.splats.size(); ++i) {
+            const sfsm::SplatStep &finer = forecast.splats[i - 1], &coarser = forecast.splats[i];
+            EXPECT_GT(coarser.size, finer.size);
+            EXPECT_LE(2 * coarser.points + coarser.triangles, 2 * finer.points + finer.triangles);
+            EXPECT_GE(coarser.loss_px, finer.loss_px);
+        }
+        for (std::size_t i = 1; i < forecast.motion.size(); ++i) {
+            EXPECT_LT(forecast.motion[i].distance, forecast.motion[i - 1].distance);
+            EXPECT_LE(forecast.motion[i].updates, forecast.motion[i - 1].updates);
+            EXPECT_GE(forecast.motion[i].loss_px, forecast.motion[i - 1].loss_px);
+        }
     }
 }
 

@@ -1,0 +1,60 @@
+// Turns what a survey saw into a forecast: histograms over the visible people, then the price list of each step.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "sfsm/forecast.h"
+
+namespace render {
+
+class Forecaster {
+public:
+    // Of one character: how many points a person who needs `points` of them is drawn with; 0 = triangles.
+    using DrawnPoints = std::function<std::uint32_t(float points)>;
+    struct Kind {
+        std::uint32_t triangles = 0;
+        float density = 0;  // SelectOptions::density
+        DrawnPoints drawn_points;
+    };
+
+    Forecaster() = default;
+    explicit Forecaster(std::vector<Kind> kinds);
+
+    // Forgets the last frame; people come with depths in (0, range].
+    void begin(float range);
+    // One visible person of a kind: view depth [m], points needed at S = 1 px, and how fast their surface crosses the
+    // picture [px/s].
+    void add(std::size_t kind, float depth, float points_at_unit_splat, float speed_px);
+    // `theta` is equation 1's. Valid until the next begin().
+    sfsm::Forecast finish(float theta);
+
+private:
+    static constexpr int depth_bins = 64;
+    static constexpr int point_bins = 512;  // sixteenths of an octave from 2^-8 on
+    static constexpr int motion_steps = 7;
+    static constexpr int splat_steps = 28;  // triangles, then quarter octaves from 0.35 px to 32 px
+
+    void price_motion(float theta);
+    void price_splats();
+    // Points of people in a bin under S: looked up, since it depends on the kind and their ratio alone.
+    static int point_bin(float points);
+    static float bin_points(int bin);
+
+    struct DepthBin {
+        std::int64_t people = 0;
+        double speed_px = 0;  // summed
+    };
+    std::vector<Kind> kinds_;
+    float range_ = 1;
+    std::int64_t people_ = 0;
+    std::array<DepthBin, depth_bins> depths_;
+    std::vector<std::array<std::int32_t, point_bins>> points_;  // per kind: people by points needed at S = 1
+    std::vector<std::array<std::uint32_t, point_bins>> drawn_;  // per kind: points drawn for points needed
+    std::array<sfsm::MotionStep, motion_steps> motion_;
+    std::array<sfsm::SplatStep, splat_steps> splats_;
+};
+
+}  // namespace render
