@@ -1,0 +1,18 @@
+// Random numbers that are a function of (seed, frame, stream) alone: whatever a law decides, and whichever law it is,
+// frame k of seed s meets the same noise. Standard distributions differ between platforms; these don't.
+#pragma once
+
+#include <cstdint>
+
+namespace sfsm::simulate {
+
+// Which of a frame's numbers: streams are independent of each other.
+enum class Stream : std::uint64_t { noise = 1, spike = 2, spike_size = 3 };
+
+// Uniform in (0, 1), both ends left out.
+double uniform_at(std::uint64_t seed, std::int64_t frame, Stream stream);
+
+// Standard normal (Box and Muller 1958).
+double normal_at(std::uint64_t seed, std::int64_t frame, Stream stream);
+
+}  // namespace sfsm::simulate

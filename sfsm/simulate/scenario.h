@@ -1,0 +1,65 @@
+// What a law is put through: a plant, a target, and all that comes between what a frame costs and the time that
+// arrives. Everything is a function of the frame number and the seed.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sfsm/simulate/plant.h"
+#include "sfsm/target.h"
+
+namespace sfsm::simulate {
+
+// Frames [begin, end).
+struct Frames {
+    std::int64_t begin = 0, end = 0;
+    bool contains(std::int64_t frame) const { return frame >= begin && frame < end; }
+};
+
+// Frames that take a time of their own, whatever is drawn: a hitch, a pause, a loading screen. They count in no share.
+struct Interruption {
+    Frames frames;
+    double ms = 0;  // any number, also none
+};
+
+// Where load or target change at once.
+struct LoadStep {
+    std::int64_t frame = 0;  // the first under the new load
+    bool is_down = false;    // detail has to go down to stay in time
+};
+
+struct Scenario {
+    std::string name;
+    std::string about;  // in a few words
+    std::shared_ptr<const Plant> plant;
+    TargetSchedule target = TargetSchedule::parse("16.666666666666668");  // [ms]
+    std::int64_t frames = 3600;
+    std::int64_t statistics_from = 200;  // laws may learn before
+    int delay = 2;                       // a time arrives before the decision of the frame 1 + delay later, [0, 16]
+
+    // Measured = cost * exp(noise * N(0, 1)), and in a share of frames a spike of target * U(spike_low, spike_high) on
+    // top, then up to the next multiple of refresh_ms.
+    double noise = 0;
+    double spike_share = 0;
+    double spike_low = 0.7, spike_high = 2;
+    double refresh_ms = 0;  // 0: no vertical sync
+
+    std::vector<Interruption> interruptions;
+    std::vector<LoadStep> steps;
+    std::vector<Frames> steady;  // nothing changes here but noise, and laws have had time to settle
+    double oracle_aim = 1;       // what the oracle holds, in shares of the target; under 1 where times are quantised
+};
+
+std::span<const std::string_view> scenario_names();
+
+// Throws std::invalid_argument naming the scenarios there are.
+Scenario make_scenario(std::string_view name);
+
+// The time of frame `frame` that was drawn at `cost_ms` [ms]; what a user of the renderer would measure.
+double measured_ms(const Scenario& scenario, std::uint64_t seed, std::int64_t frame, double cost_ms);
+
+}  // namespace sfsm::simulate
