@@ -1,6 +1,7 @@
 // The roaming stadium: one loop from a measured time to the next decision.
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -19,6 +20,7 @@
 #include "render/window.h"
 #include "scene/camera_path.h"
 #include "sfsm/controller.h"
+#include "sfsm/number_text.h"
 
 namespace apps {
 
@@ -55,16 +57,21 @@ sfsm::Decision fixed_decision(const StadiumOptions& options, sfsm::State state, 
     return decision;
 }
 
+std::optional<scene::CameraPath> load_path(const std::string& camera) {
+    if (scene::is_preset(camera)) return std::nullopt;
+    return scene::load_camera_path(camera);
+}
+
 class Stadium {
 public:
     explicit Stadium(const StadiumOptions& options)
         : options_(options),
           controller_(sfsm::make_controller(options.law)),
+          path_from_file_(load_path(options.camera)),
           surface_(options),
           device_(render::read_device()),
           stage_(build_stage(options.characters, options.people, options.seed)),
-          path_(scene::is_preset(options.camera) ? scene::preset_path(options.camera, stage_->plan)
-                                                 : scene::load_camera_path(options.camera)),
+          path_(path_from_file_ ? *path_from_file_ : scene::preset_path(options.camera, stage_->plan)),
           renderer_(stage_->structure, stage_->plan, stage_->figure_assets(), options.width, options.height),
           selector_(stage_->crowd, stage_->figures()),
           timer_(device_),
@@ -93,18 +100,22 @@ public:
 
     // What a trace must say for the run to be repeated and its decisions verified.
     std::map<std::string, std::string> settings() const {
-        return {{"version", GRANDSTAND_VERSION},
-                {"device", device_.renderer},
-                {"driver", device_.version},
-                {"law", options_.law},
-                {"state", options_.state ? std::to_string(static_cast<int>(*options_.state)) : "auto"},
-                {"delay", std::to_string(timer_.delay())},
-                {"target_ms", options_.target.text()},
-                {"people", std::to_string(options_.people)},
-                {"character", character_names()},
-                {"camera", options_.camera},
-                {"size", std::to_string(options_.width) + "x" + std::to_string(options_.height)},
-                {"seed", std::to_string(options_.seed)}};
+        return {
+            {"version", GRANDSTAND_VERSION},
+            {"device", device_.renderer},
+            {"driver", device_.version},
+            {"law", options_.law},
+            {"state", options_.state ? std::to_string(static_cast<int>(*options_.state)) : "auto"},
+            {"delay", std::to_string(timer_.delay())},
+            {"target_ms", options_.target.text()},
+            {"people", std::to_string(options_.people)},
+            {"character", character_names()},
+            {"camera", options_.camera + (was_steered_ ? " (then steered)" : "")},
+            {"size", std::to_string(width_) + "x" + std::to_string(height_)},
+            {"splat_px", options_.splat_size ? sfsm::number_text(*options_.splat_size) : "default"},
+            {"motion_distance_m", options_.motion_distance ? sfsm::number_text(*options_.motion_distance) : "default"},
+            {"step", options_.fixed_step || surface_.headless ? "1/60 s" : "wall clock"},
+            {"seed", std::to_string(options_.seed)}};
     }
 
 private:
@@ -135,6 +146,7 @@ private:
         row.decision = options_.state ? fixed_decision(options_, *options_.state, row.range)
                                       : controller_->decide({row.target_ms, row.range, &survey.forecast});
         const render::Selection& selection = selector_.select(row.decision, last_tick_);
+        timer_.submit();
         renderer_.draw(view, selection, row.decision.splat_size);
         const auto time = timer_.end();
         row.work = selection.work;
@@ -157,7 +169,10 @@ private:
         render::Window& window = *surface_.window;
         const render::Input input = window.poll();
         if (window.closed()) return false;
-        if (!flight_ && FreeCamera::steers(input)) flight_.emplace(path_.at(clock_.seconds()));
+        if (!flight_ && FreeCamera::steers(input)) {
+            flight_.emplace(path_.at(clock_.seconds()));
+            was_steered_ = true;
+        }
         if (flight_) flight_->move(input, elapsed_);
         for (const render::Command command : input.commands) obey(command);
         const bool resized = window.width() != width_ || window.height() != height_;
@@ -186,14 +201,22 @@ private:
                 break;
             default:
                 flight_.reset();
+                was_steered_ = true;
                 path_ = scene::preset_path(presets[static_cast<int>(command)], stage_->plan);
         }
     }
 
-    void screenshot() {
-        const std::string name = "stadium-" + std::to_string(++screenshots_) + ".png";
-        write_png(name, renderer_.read_image());
-        std::fprintf(stderr, "saved %s\n", name.c_str());
+    // Under the first free name. A full disk must not end the run.
+    void screenshot() const {
+        std::string name;
+        for (int number = 1; name.empty() || std::filesystem::exists(name); ++number)
+            name = "stadium-" + std::to_string(number) + ".png";
+        try {
+            write_png(name, renderer_.read_image());
+            std::fprintf(stderr, "stadium: saved %s\n", name.c_str());
+        } catch (const std::exception& error) {
+            std::fprintf(stderr, "stadium: %s\n", error.what());
+        }
     }
 
     void show(std::int64_t frame) {
@@ -219,13 +242,15 @@ private:
     }
 
     std::string character_names() const {
+        if (options_.characters.empty()) return stage_->cast.front().name;
         std::string names;
-        for (const scene::CastMember& member : stage_->cast) names += (names.empty() ? "" : " ") + member.name;
+        for (const auto& file : options_.characters) names += (names.empty() ? "" : " ") + file.string();
         return names;
     }
 
     const StadiumOptions& options_;
     std::unique_ptr<sfsm::Controller> controller_;
+    std::optional<scene::CameraPath> path_from_file_;  // read first: a damaged one is known before any work is done
     Surface surface_;
     render::Device device_;
     std::unique_ptr<Stage> stage_;
@@ -241,7 +266,7 @@ private:
     double last_ms_ = 0;
     double target_scale_ = 1;  // the user's + and -
     int width_, height_;       // [px]
-    int screenshots_ = 0;
+    bool was_steered_ = false;
 };
 
 void run(const StadiumOptions& options) {

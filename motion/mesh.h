@@ -4,10 +4,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <string>
 #include <vector>
-
-#include <glm/glm.hpp>
 
 namespace motion {
 
@@ -23,8 +22,8 @@ struct Texture {
 
 // Morph target: adds weight * offset to a run of vertices. `node` and `slot` name the animated weight.
 struct MorphTarget {
-    std::int32_t node = 0;           // the node of the skeleton that carries the weights
-    std::int32_t slot = 0;           // which of the node's weights
+    std::int32_t node = 0;  // the node of the skeleton that carries the weights
+    std::int32_t slot = 0;  // which of the node's weights
     float rest_weight = 0;
     std::uint32_t first_vertex = 0;
     std::vector<glm::vec3> position_offsets;  // for vertices first_vertex ...
@@ -35,18 +34,18 @@ inline constexpr std::uint8_t no_texture = 255;
 
 // Structure of arrays, one element a vertex unless it says otherwise. All arrays are always filled.
 struct Mesh {
-    std::vector<glm::vec3> positions;      // [file's units], in bind space
-    std::vector<glm::vec3> normals;        // unit, outward
-    std::vector<glm::vec2> uvs;            // top-left origin, wraps
-    std::vector<glm::u8vec4> colors;       // base colour factor x vertex colour, sRGB-encoded
+    std::vector<glm::vec3> positions;  // [file's units], in bind space
+    std::vector<glm::vec3> normals;    // unit, outward
+    std::vector<glm::vec2> uvs;        // top-left origin, wraps
+    std::vector<glm::u8vec4> colors;   // base colour factor x vertex colour, sRGB-encoded
     std::vector<Tint> tints;
-    std::vector<std::uint8_t> texture_ids; // into textures, or no_texture
-    std::vector<glm::u16vec4> joints;      // into Skeleton::palette; unused ones have weight 0
-    std::vector<glm::vec4> weights;        // >= 0, sum 1
-    std::vector<std::uint32_t> indices;    // three a triangle, counter-clockwise seen from outside
+    std::vector<std::uint8_t> texture_ids;  // into textures, or no_texture
+    std::vector<glm::u16vec4> joints;       // into Skeleton::palette; unused ones have weight 0
+    std::vector<glm::vec4> weights;         // >= 0, sum 1
+    std::vector<std::uint32_t> indices;     // three a triangle, counter-clockwise seen from outside
     std::vector<Texture> textures;
     std::vector<MorphTarget> morphs;
-    bool double_sided = false;             // some surface is open and is to be seen from both sides
+    bool double_sided = false;  // some surface is open and is to be seen from both sides
 
     std::size_t vertex_count() const { return positions.size(); }
     std::size_t triangle_count() const { return indices.size() / 3; }

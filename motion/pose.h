@@ -11,9 +11,9 @@ namespace motion {
 
 // The animated state of a skeleton at one time.
 struct Pose {
-    std::vector<glm::mat4> world;     // one a node
-    std::vector<glm::mat4> palette;   // one a palette entry
-    std::vector<float> morph_weights; // one a Mesh::morphs element
+    std::vector<glm::mat4> world;      // one a node
+    std::vector<glm::mat4> palette;    // one a palette entry
+    std::vector<float> morph_weights;  // one a Mesh::morphs element
 };
 
 // The rest pose of the file.

@@ -149,6 +149,7 @@ void measure(const Character& character, std::span<const int> clips, const std::
     for (const Bounds& box : table.clip_boxes) table.box = merged(table.box, box);
     table.area = static_cast<float>(*std::max_element(areas.begin(), areas.end()));
     table.rest_height = boxes.front().size().y;
+    table.floor = boxes.front().min.y;
     if (table.rest_height > 0.0f) return;
     const glm::vec3 size = table.box.size();  // lies flat on the ground: its longest side stands in
     table.rest_height = std::max({size.x, size.y, size.z});

@@ -2,11 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
-#include <vector>
-
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <string>
+#include <vector>
 
 namespace motion {
 
@@ -25,9 +24,9 @@ struct PaletteEntry {
 
 struct Node {
     std::string name;
-    std::int32_t parent = -1;      // always smaller than the node's own index; -1 = root
-    Transform rest;                // what a clip that drives only part of it leaves alone
-    glm::mat4 rest_matrix{1.0f};   // equals rest, except for file matrices with shear (which clips can't drive)
+    std::int32_t parent = -1;     // always smaller than the node's own index; -1 = root
+    Transform rest;               // what a clip that drives only part of it leaves alone
+    glm::mat4 rest_matrix{1.0f};  // equals rest, except for file matrices with shear (which clips can't drive)
 };
 
 struct Skeleton {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdio>
 #include <stdexcept>
 #include <string>
 
@@ -25,6 +26,19 @@ constexpr glm::vec3 ground_light{0.14f, 0.14f, 0.12f};
 constexpr std::size_t words_per_element_draw = 5;
 constexpr std::size_t words_per_array_draw = 4;
 
+// Set-up must have left no error behind; memory is the one that a user can do something about.
+void check_for_errors() {
+    for (GLenum error = glGetError(); error != GL_NO_ERROR; error = glGetError()) {
+        if (error == GL_OUT_OF_MEMORY)
+            throw std::runtime_error(
+                "OpenGL: the driver ran out of memory for the characters' poses; fewer --character files will do");
+        char code[16];
+        std::snprintf(code, sizeof code, "0x%04x", error);
+        throw std::runtime_error(std::string("OpenGL: the driver reported error ") + code +
+                                 " during set-up, expected none");
+    }
+}
+
 std::uintptr_t bytes(std::size_t words) {
     return words * sizeof(std::uint32_t);
 }
@@ -47,13 +61,16 @@ Renderer::Renderer(const scene::StaticMesh& structure, const scene::StadiumPlan&
     glNamedBufferStorage(frame_block_.name(), sizeof(FrameBlock), nullptr, GL_DYNAMIC_STORAGE_BIT);
     for (const FigureAssets& assets : figures) figures_.push_back(upload_figure(assets));
     upload_structure(structure);
-    if (glGetError() == GL_OUT_OF_MEMORY)
-        throw std::runtime_error(
-            "OpenGL: the driver ran out of memory for the characters' poses; fewer --character files will do");
     resize(width, height);
+    check_for_errors();
 }
 
 void Renderer::resize(int width, int height) {
+    GLint largest = 0;
+    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
+    if (width > largest || height > largest)
+        throw std::runtime_error("OpenGL: found a picture of " + std::to_string(width) + "x" + std::to_string(height) +
+                                 " pixels, expected sides of at most " + std::to_string(largest));
     width_ = width;
     height_ = height;
     color_ = make_renderbuffer();

@@ -26,8 +26,7 @@ struct FigureAssets {
 
 class Renderer {
 public:
-    // Needs a current OpenGL 4.5 context. width, height in [1, 16384]. Throws std::runtime_error when the driver
-    // refuses.
+    // Needs a current OpenGL 4.5 context. width, height >= 1. Throws std::runtime_error when the driver refuses.
     Renderer(const scene::StaticMesh& structure, const scene::StadiumPlan& plan, std::span<const FigureAssets> figures,
              int width, int height);
 

@@ -2,7 +2,9 @@
 
 #include <epoxy/egl.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <cstring>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -18,17 +20,26 @@ std::string egl_error() {
     return text;
 }
 
-// Hardware first: every EGL device (a GPU's driver lists itself there), then Mesa's surfaceless platform,
-// which is where a machine without a GPU ends.
+// Every EGL device, hardware first whatever order the drivers list themselves in.
+std::vector<EGLDeviceEXT> devices_by_preference() {
+    EGLint count = 0;
+    eglQueryDevicesEXT(0, nullptr, &count);
+    std::vector<EGLDeviceEXT> devices(static_cast<std::size_t>(count));
+    eglQueryDevicesEXT(count, devices.data(), &count);
+    std::stable_partition(devices.begin(), devices.end(), [](EGLDeviceEXT device) {
+        const char* extensions = eglQueryDeviceStringEXT(device, EGL_EXTENSIONS);
+        return !extensions || !std::strstr(extensions, "EGL_MESA_device_software");
+    });
+    return devices;
+}
+
+// The devices, then Mesa's surfaceless platform, which is where a machine without a GPU may end.
 std::vector<EGLDisplay> candidate_displays() {
     std::vector<EGLDisplay> displays;
+    if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_base")) return displays;
     if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration") ||
         epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_base")) {
-        EGLint count = 0;
-        eglQueryDevicesEXT(0, nullptr, &count);
-        std::vector<EGLDeviceEXT> devices(static_cast<std::size_t>(count));
-        eglQueryDevicesEXT(count, devices.data(), &count);
-        for (EGLDeviceEXT device : devices)
+        for (EGLDeviceEXT device : devices_by_preference())
             displays.push_back(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, nullptr));
     }
     if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless"))

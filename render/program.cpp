@@ -46,11 +46,12 @@ Program build_program(std::string_view vertex, std::string_view fragment,
     std::string preamble = "#version 450 core\n";
     for (std::string_view define : defines) preamble += "#define " + std::string(define) + "\n";
     preamble += shader_source("layout.h");
-    preamble += "\n#line 1\n";
 
     Program program(glCreateProgram());
-    attach_stage(program.name(), GL_VERTEX_SHADER, vertex, preamble);
-    attach_stage(program.name(), GL_FRAGMENT_SHADER, fragment, preamble);
+    const std::string line_one = "\n#line 1\n";
+    attach_stage(program.name(), GL_VERTEX_SHADER, vertex,
+                 preamble + std::string(shader_source("light.glsl")) + line_one);
+    attach_stage(program.name(), GL_FRAGMENT_SHADER, fragment, preamble + line_one);
     glLinkProgram(program.name());
     GLint linked = GL_FALSE;
     glGetProgramiv(program.name(), GL_LINK_STATUS, &linked);

@@ -12,7 +12,7 @@ namespace render {
 std::string_view shader_source(std::string_view name);
 
 // Compiles and links shaders/`vertex` and shaders/`fragment`, each preceded by #version, `defines` ("#define" each)
-// and shaders/layout.h. Throws std::runtime_error with the stage's name and the driver's first message.
+// and shaders/layout.h, the vertex stage by shaders/light.glsl too. Throws std::runtime_error with the stage's name and the driver's first message.
 Program build_program(std::string_view vertex, std::string_view fragment,
                       std::initializer_list<std::string_view> defines = {});
 

@@ -13,7 +13,10 @@ FrameTimer::FrameTimer(const Device& device) : software_(device.software) {
 void FrameTimer::begin(std::int64_t frame) {
     frame_ = frame;
     start_ = std::chrono::steady_clock::now();
-    if (!software_) glBeginQuery(GL_TIME_ELAPSED, ring_[frame % ring_size].query.name());
+}
+
+void FrameTimer::submit() {
+    if (!software_) glBeginQuery(GL_TIME_ELAPSED, ring_[frame_ % ring_size].query.name());
 }
 
 std::optional<FrameTime> FrameTimer::end() {

@@ -27,6 +27,8 @@ public:
     int delay() const { return software_ ? 0 : ring_size - 1; }
 
     void begin(std::int64_t frame);
+    // From here on commands are submitted: what the GPU waits for before is not its work.
+    void submit();
     // The time of frame - delay(), if there was one.
     std::optional<FrameTime> end();
     // The times that were still under way, oldest first, until there is none.

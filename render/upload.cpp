@@ -35,6 +35,7 @@ constexpr GLuint instance_binding = 1;
 template <typename T>
 Buffer upload(const std::vector<T>& data) {
     Buffer buffer = make_buffer();
+    if (data.empty()) return buffer;  // GL has no storage of no bytes
     glNamedBufferStorage(buffer.name(), static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(), 0);
     return buffer;
 }

@@ -125,7 +125,7 @@ Placement place(const Crowd& crowd, std::size_t person, const CastMember& member
     const double run = static_cast<double>(at.z) + speed * static_cast<double>(tick) / motion::ticks_per_second;
     const float arc = static_cast<float>(std::fmod(run, static_cast<double>(crowd.oval.length(at.x))));
     const glm::vec2 xz = crowd.oval.position(arc, at.x), ahead = crowd.oval.tangent(arc, at.x);
-    return {{xz.x, 0.0f, xz.y}, std::atan2(ahead.x, ahead.y)};
+    return {{xz.x, at.y, xz.y}, std::atan2(ahead.x, ahead.y)};
 }
 
 Action act(const Crowd& crowd, std::size_t person, const CastMember& member, const motion::PoseTable& poses,

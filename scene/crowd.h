@@ -43,8 +43,8 @@ struct CrowdBlock {
 
 struct Crowd {
     // One element a person, blocks contiguous.
-    // [m] Where the model's origin goes: the feet of who stands; who sits rests on the seat whatever their size. For
-    // walkers and runners x = lane offset [m], y = 0, z = arc at tick 0 [m].
+    // [m] Where the model's origin goes, so that who stands stands on the ground and who sits rests on the seat,
+    // whatever their size. For walkers and runners x = lane offset [m], y = height, z = arc at tick 0 [m].
     std::vector<glm::vec3> position;
     std::vector<float> yaw;     // [rad]
     std::vector<float> height;  // [m] standing, 1.5-2.0

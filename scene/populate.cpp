@@ -78,6 +78,7 @@ struct Gathering {
     // Grows the open block by one person of these looks.
     void add(glm::vec3 position, float yaw, float height, std::uint8_t character, Role role, Fans fans) {
         const std::uint64_t own = bits(salt_person, crowd.size());
+        position.y -= height / poses[character].rest_height * poses[character].floor;
         crowd.position.push_back(position);
         crowd.yaw.push_back(yaw);
         crowd.height.push_back(height);
@@ -113,7 +114,7 @@ struct Gathering {
         const float radius = crowd.oval.radius + position.x;
         const glm::vec3 lane(crowd.oval.half_straight + radius, 0, radius);
         const motion::Bounds reach = turned_any_way(table.box, scale);
-        return {reach.min - lane, reach.max + lane};
+        return moved({reach.min - lane, reach.max + lane}, {0, position.y, 0});
     }
 };
 

@@ -50,11 +50,6 @@ vec3 tint() {
 #endif
 }
 
-vec3 lit(vec3 normal) {
-    vec3 surroundings = mix(Frame.ground_light.rgb, Frame.sky_light.rgb, 0.5 + 0.5 * normal.y);
-    return surroundings + Frame.sun_color.rgb * max(dot(normal, Frame.sun_direction.xyz), 0.0);
-}
-
 void main() {
     vec3 model = Figure.box_min.xyz + Figure.box_size.xyz * packed_position;
     vec3 position = placement.xyz + placement.w * turned(model);

@@ -9,7 +9,13 @@ void main() { color = vec4(surface_color, 1.0); }
 #else
 in vec2 ground;
 
-const vec2 pitch_half = vec2(52.5, 34.0);  // [m] 105 x 68, the standard pitch
+// The Laws of the Game's pitch [m]; halves are from the middle, depths from the goal line.
+const vec2 pitch_half = vec2(52.5, 34.0);
+const float circle_radius = 9.15;   // around the middle, and around the penalty mark
+const float penalty_depth = 16.5, penalty_half_width = 20.16;
+const float goal_area_depth = 5.5, goal_area_half_width = 9.16;
+const float penalty_mark = 11.0;
+const float mark_radius = 0.12;
 const float line_half_width = 0.06;        // [m]
 const float lane_width = 1.22;             // [m]
 const float lane_count = 8.0;
@@ -27,18 +33,24 @@ float box(vec2 p, vec2 half_size) {
     return max(q.x, q.y);
 }
 
+// A box that reaches `depth` into the pitch from the goal line.
+float goal_box(vec2 m, float depth, float half_width) {
+    return box(m - vec2(pitch_half.x - 0.5 * depth, 0.0), vec2(0.5 * depth, half_width));
+}
+
 float markings(vec2 p) {
     vec2 m = vec2(abs(p.x), p.y);  // both halves are alike
+    vec2 from_mark = m - vec2(pitch_half.x - penalty_mark, 0.0);
     float on_pitch = inside(box(p, pitch_half) - line_half_width);
     float marks = line(box(p, pitch_half), line_half_width);
     marks = max(marks, line(p.x, line_half_width));
-    marks = max(marks, line(length(p) - 9.15, line_half_width));
-    marks = max(marks, line(box(m - vec2(pitch_half.x - 8.25, 0.0), vec2(8.25, 20.16)), line_half_width));
-    marks = max(marks, line(box(m - vec2(pitch_half.x - 2.75, 0.0), vec2(2.75, 9.16)), line_half_width));
-    float arc = line(length(m - vec2(pitch_half.x - 11.0, 0.0)) - 9.15, line_half_width);
-    marks = max(marks, m.x < pitch_half.x - 16.5 ? arc : 0.0);
-    marks = max(marks, inside(length(m - vec2(pitch_half.x - 11.0, 0.0)) - 0.12));
-    marks = max(marks, inside(length(p) - 0.12));
+    marks = max(marks, line(length(p) - circle_radius, line_half_width));
+    marks = max(marks, line(goal_box(m, penalty_depth, penalty_half_width), line_half_width));
+    marks = max(marks, line(goal_box(m, goal_area_depth, goal_area_half_width), line_half_width));
+    float arc = line(length(from_mark) - circle_radius, line_half_width);
+    marks = max(marks, m.x < pitch_half.x - penalty_depth ? arc : 0.0);
+    marks = max(marks, inside(length(from_mark) - mark_radius));
+    marks = max(marks, inside(length(p) - mark_radius));
     return marks * on_pitch;
 }
 

@@ -9,11 +9,6 @@ out vec2 ground;  // world x, z [m]
 flat out vec3 surface_color;
 #endif
 
-vec3 lit(vec3 n) {
-    vec3 surroundings = mix(Frame.ground_light.rgb, Frame.sky_light.rgb, 0.5 + 0.5 * n.y);
-    return surroundings + Frame.sun_color.rgb * max(dot(n, Frame.sun_direction.xyz), 0.0);
-}
-
 void main() {
     gl_Position = Frame.clip_from_camera_relative * vec4(world_position - Frame.camera_position.xyz, 1.0);
 #ifdef GROUND
