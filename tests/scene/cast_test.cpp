@@ -99,4 +99,21 @@ TEST(Room, GiantsDoNotBreakTheStadium) {
     EXPECT_EQ(scene::populate(scene::plan_stadium(3000, room), 3000, cast.members, cast.poses, 1).size(), 3000u);
 }
 
+TEST(Crowd, StandsOnTheGroundWhateverItsModelsOrigin) {
+    tests::FakeCast cast;
+    tests::add_stander(cast);
+    cast.poses[0].floor = -0.7f;  // the origin is in the model's middle
+    const scene::StadiumPlan plan = scene::plan_stadium(2000);
+    const scene::Crowd crowd = scene::populate(plan, 2000, cast.members, cast.poses, 1);
+    const scene::Crowd level = [&] {
+        cast.poses[0].floor = 0;
+        return scene::populate(plan, 2000, cast.members, cast.poses, 1);
+    }();
+    for (std::size_t person = 0; person < crowd.size(); ++person) {
+        const float lowest = scene::place(crowd, person, cast.members[0], 77).position.y +
+                             crowd.height[person] / cast.poses[0].rest_height * -0.7f;
+        EXPECT_NEAR(lowest, scene::place(level, person, cast.members[0], 77).position.y, 1e-5f);
+    }
+}
+
 }  // namespace
