@@ -5,6 +5,7 @@
 #include <string>
 
 #include "sfsm/paper.h"
+#include "sfsm/predictive.h"
 
 namespace sfsm {
 namespace {
@@ -15,6 +16,7 @@ struct Law {
 };
 
 constexpr std::array laws = {
+    Law{"predictive", [] { return std::unique_ptr<Controller>(std::make_unique<PredictiveLaw>()); }},
     Law{"paper", [] { return std::unique_ptr<Controller>(std::make_unique<PaperLaw>()); }},
 };
 

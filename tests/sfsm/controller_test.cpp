@@ -10,7 +10,7 @@ namespace {
 
 TEST(Laws, EveryListedNameMakesALawThatStartsOriginal) {
     ASSERT_FALSE(law_names().empty());
-    EXPECT_EQ(law_names().front(), "paper");
+    EXPECT_EQ(law_names().front(), "predictive");
     for (const std::string_view name : law_names()) {
         const auto law = make_controller(name);
         ASSERT_NE(law, nullptr) << name;

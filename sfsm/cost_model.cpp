@@ -1,0 +1,151 @@
+#include "sfsm/cost_model.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+namespace sfsm {
+namespace {
+
+constexpr double first_noise = 0.05;                     // relative
+constexpr double least_noise = 0.001, most_noise = 0.3;  // relative
+constexpr double huber = 3;                              // standard deviations
+constexpr double gain_memory = 60;                       // [samples] that the gain is averaged over
+constexpr double price_walk = 0.0003;                    // 1 sigma per sample, in units of the first belief
+constexpr double most_price = 1e4, least_fixed = 1e-4;   // in units of the first guess
+constexpr double most_log_gain = 60;
+constexpr double least_log_ms = -40, most_log_ms = 40;
+// The median of |a - b| of two normal numbers of spread 1.
+constexpr double median_difference = 0.9539;
+
+double dot(const auto& a, const auto& b, int n) {
+    return std::inner_product(a.begin(), a.begin() + n, b.begin(), 0.0);
+}
+
+}  // namespace
+
+CostModel::CostModel(const PriceBelief& belief) : belief_(belief), states_(belief.terms + 1), noise_(first_noise) {
+    assert(belief.terms >= 1 && belief.terms <= most_terms);
+    doubt();
+}
+
+void CostModel::doubt() {
+    for (int i = 1; i < states_; ++i) {
+        double correlation = 1;
+        for (int j = i; j < states_; ++j) {
+            spread_[j][i] = spread_[i][j] = correlation * belief_.spread[i - 1] * belief_.spread[j - 1];
+            correlation *= i == 1 ? 0 : belief_.likeness;
+        }
+        spread_[0][i] = spread_[i][0] = 0;
+    }
+}
+
+void CostModel::start(const Amounts& amounts, double ms) {
+    state_.fill(1);
+    state_[0] = 0;
+    log_scale_ = std::log(ms) - std::log(std::accumulate(amounts.of.begin(), amounts.of.begin() + amounts.terms, 0.0));
+}
+
+void CostModel::observe(const Amounts& amounts, double ms) {
+    const Seen seen{amounts, std::clamp(std::log(ms), least_log_ms, most_log_ms)};
+    if (samples_ == 0) start(amounts, ms);
+    if (samples_ == 1) {
+        // Of two first times the shorter is the better guess.
+        Vector gradient;
+        if (seen.log_ms < log_time(amounts, gradient)) start(amounts, ms);
+    }
+    recent_[static_cast<std::size_t>(samples_ % ShiftDetector::window)] = seen;
+    ++samples_;
+    forget();
+    Vector gradient;
+    learn_noise(seen.log_ms - log_time(amounts, gradient));
+    const int shown = detector_.add(correct(seen));
+    if (shown > 0) take_shift(shown);
+}
+
+double CostModel::log_time(const Amounts& amounts, Vector& gradient) const {
+    double sum = 0;
+    for (int i = 0; i < belief_.terms; ++i) sum += state_[i + 1] * amounts.of[i];
+    gradient[0] = 1;
+    for (int i = 0; i < belief_.terms; ++i) gradient[i + 1] = amounts.of[i] / sum;
+    return log_scale_ + state_[0] + std::log(sum);
+}
+
+// One step of the filter. Returns the residual in units of its standard deviation.
+double CostModel::correct(const Seen& seen) {
+    Vector gradient;
+    const double residual = seen.log_ms - log_time(seen.amounts, gradient);
+    Vector covariance;
+    for (int i = 0; i < states_; ++i) covariance[i] = dot(spread_[i], gradient, states_);
+    const double variance = dot(covariance, gradient, states_) + noise_ * noise_;
+    const double standardised = residual / std::sqrt(variance);
+    const double weight = std::abs(standardised) > huber ? huber / std::abs(standardised) : 1;
+    for (int i = 0; i < states_; ++i) {
+        const double gain = weight * covariance[i] / variance;
+        state_[i] += gain * residual;
+        for (int j = 0; j < states_; ++j) spread_[i][j] -= gain * covariance[j];
+    }
+    state_[0] = std::clamp(state_[0], -most_log_gain, most_log_gain);
+    for (int i = 1; i < states_; ++i) state_[i] = std::clamp(state_[i], i == 1 ? least_fixed : 0, most_price);
+    return standardised;
+}
+
+void CostModel::forget() {
+    const double walk = noise_ / gain_memory;
+    spread_[0][0] += walk * walk;
+    for (int i = 1; i < states_; ++i) {
+        const double most = belief_.spread[i - 1] * belief_.spread[i - 1];
+        if (spread_[i][i] < most) spread_[i][i] += price_walk * price_walk * most;
+    }
+}
+
+// A step towards the median of the differences between neighbours, whatever their size: outliers don't count.
+void CostModel::learn_noise(double residual) {
+    const double difference = std::abs(residual - last_residual_);
+    last_residual_ = residual;
+    if (samples_ < 3) return;
+    const double step = 1 + std::max(0.015, 1.0 / static_cast<double>(samples_));
+    noise_ = difference > median_difference * noise_ ? noise_ * step : noise_ / step;
+    noise_ = std::clamp(noise_, least_noise, most_noise);
+}
+
+// The newest `count` times tell of another level: forget the gain, and hear them again.
+void CostModel::take_shift(int count) {
+    detector_.clear();
+    ++shifts_;
+    const auto newest = [&](int i) -> const Seen& {
+        return recent_[static_cast<std::size_t>((samples_ - i) % ShiftDetector::window)];
+    };
+    Vector gradient;
+    double least = most_log_ms;
+    for (int i = 1; i <= count; ++i)
+        least = std::min(least, std::abs(newest(i).log_ms - log_time(newest(i).amounts, gradient)));
+    for (int i = 0; i < states_; ++i) spread_[0][i] = spread_[i][0] = 0;
+    spread_[0][0] = least * least + noise_ * noise_;
+    for (int i = count; i >= 1; --i) correct(newest(i));
+}
+
+Prediction CostModel::predict(const Amounts& amounts) const {
+    Prediction prediction;
+    Vector gradient;
+    prediction.log_ms = log_time(amounts, gradient);
+    double variance = 0;
+    for (int i = 0; i < states_; ++i) variance += gradient[i] * dot(spread_[i], gradient, states_);
+    prediction.uncertainty = std::sqrt(std::max(variance, 0.0));
+    return prediction;
+}
+
+double CostModel::gain() const {
+    return std::exp(state_[0]);
+}
+
+double CostModel::price(int term) const {
+    return std::exp(log_scale_) * state_[term + 1];
+}
+
+double CostModel::price_uncertainty(int term) const {
+    return std::exp(log_scale_) * std::sqrt(std::max(spread_[term + 1][term + 1], 0.0));
+}
+
+}  // namespace sfsm

@@ -1,0 +1,88 @@
+// What a frame costs, learned from frames: time = gain * sum over terms of price * amount. Prices say how kinds of work
+// compare, the gain follows all that makes every frame slower or faster (clocks, other programs, a crowd that grew
+// where no forecast can say so). No clock, no allocation; the same calls give the same bits.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "sfsm/shift.h"
+
+namespace sfsm {
+
+inline constexpr int most_terms = 9;
+
+// Amounts of each kind of work in a frame, in units whose expected prices are equal. Term 0 is what every frame has.
+struct Amounts {
+    std::array<double, most_terms> of{};  // >= 0, finite; of[0] > 0
+    int terms = 0;                        // the same for all that one model is given
+};
+
+struct Prediction {
+    double log_ms = 0;       // natural logarithm of the time [ms]
+    double uncertainty = 0;  // 1 sigma of log_ms without the noise of a single frame, >= 0: 0.1 is about 10 %
+};
+
+// What is believed of the prices before the first time: each is 1, give or take.
+struct PriceBelief {
+    int terms = 1;                            // in [1, most_terms]
+    std::array<double, most_terms> spread{};  // 1 sigma of each price, > 0
+    double likeness = 0;                      // correlation of terms 1, 2, ... at a distance of one, [0, 1)
+};
+
+// An extended Kalman filter in the logarithm of time over [ln gain, prices], with Huber's weights, prices kept at 0 or
+// more, a random walk that forgets slowly but never beyond the first belief, and a detector of shifts that hands
+// sudden changes to the gain.
+class CostModel {
+public:
+    explicit CostModel(const PriceBelief& belief);
+
+    // A frame of these amounts took `ms` (finite, > 0). About 0.3 us.
+    void observe(const Amounts& amounts, double ms);
+
+    // Means nothing before is_ready().
+    Prediction predict(const Amounts& amounts) const;
+
+    // Two times have arrived; one alone may be the hitch of a program's first frame.
+    bool is_ready() const { return samples_ >= 2; }
+
+    double gain() const;                             // 1 at the start
+    double price(int term) const;                    // [ms] per unit of amount, gain left out
+    double price_uncertainty(int term) const;        // 1 sigma [ms]
+    double noise() const { return noise_; }          // 1 sigma of a single frame, relative
+    std::int64_t shifts() const { return shifts_; }  // of level, that were found so far
+    std::int64_t samples() const { return samples_; }
+
+    // Prices may have become others: believe in them no more than at the start, but keep the gain.
+    void doubt();
+
+private:
+    static constexpr int most_states = most_terms + 1;
+    using Vector = std::array<double, most_states>;
+    struct Seen {
+        Amounts amounts;
+        double log_ms = 0;
+    };
+
+    void start(const Amounts& amounts, double ms);
+    double log_time(const Amounts& amounts, Vector& gradient) const;
+    double correct(const Seen& seen);
+    void forget();
+    void learn_noise(double residual);
+    void take_shift(int count);
+
+    PriceBelief belief_;
+    int states_;
+    Vector state_{};                            // ln gain, then prices in units of scale_
+    std::array<Vector, most_states> spread_{};  // their covariance
+    double log_scale_ = 0;                      // ln [ms] per unit of amount at price 1
+    double noise_ = 0;
+    double last_residual_ = 0;
+    std::int64_t samples_ = 0;
+    std::int64_t shifts_ = 0;
+    ShiftDetector detector_;
+    std::array<Seen, ShiftDetector::window> recent_{};  // a ring
+};
+
+}  // namespace sfsm

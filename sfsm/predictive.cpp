@@ -1,0 +1,217 @@
+#include "sfsm/predictive.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "sfsm/detail.h"
+
+namespace sfsm {
+
+void PredictiveOptions::validate() const {
+    const auto require = [](bool holds, const char* rule) {
+        if (!holds) throw std::invalid_argument(std::string("predictive law: expected ") + rule);
+    };
+    require(headroom >= 0 && headroom <= 0.5, "headroom in [0, 0.5]");
+    require(caution >= 0 && caution <= 3, "caution in [0, 3]");
+    require(band >= 0 && band <= 0.2, "band in [0, 0.2]");
+    require(band_sigmas >= 0 && band_sigmas <= 6, "band_sigmas in [0, 6]");
+    require(worthwhile >= 0 && worthwhile <= 1, "worthwhile in [0, 1]");
+    require(better >= 0 && better <= 1, "better in [0, 1]");
+}
+
+namespace {
+
+// What is believed of a renderer nobody has measured: work in pieces that each take about as long as a triangle.
+constexpr double person_pieces = 50, point_pieces = 2, update_pieces = 300;
+constexpr double frame_share = 0.05;  // of the first frame's pieces, for what is there in every frame
+constexpr PriceBelief work_belief{5, {1, 1, 0.6, 0.8, 2}, 0};
+
+// And of the axis: time grows in even steps of detail, to 1 + 1 / 0.3 = 4.3 times that of the coarsest.
+constexpr int detail_steps = 8;
+constexpr double axis_frame = 0.3;
+constexpr PriceBelief axis_belief{1 + detail_steps, {1, 1, 1, 1, 1, 1, 1, 1, 1}, 0.7};
+
+constexpr double most_count = 1e15;  // of any work
+
+bool is_usable(double value) {
+    return std::isfinite(value) && value > 0;
+}
+
+double bounded(double count) {
+    return std::clamp(count, 0.0, most_count);
+}
+
+double counted(std::int64_t count) {
+    return bounded(static_cast<double>(count));
+}
+
+Amounts axis_amounts(double detail) {
+    Amounts amounts;
+    amounts.terms = 1 + detail_steps;
+    amounts.of[0] = axis_frame;
+    for (int i = 0; i < detail_steps; ++i)
+        amounts.of[static_cast<std::size_t>(i + 1)] = std::clamp(detail_steps * detail - i, 0.0, 1.0) / detail_steps;
+    return amounts;
+}
+
+}  // namespace
+
+PredictiveLaw::PredictiveLaw(const PredictiveOptions& options)
+    : options_(options), work_(work_belief), axis_(axis_belief) {
+    options_.validate();
+}
+
+void PredictiveLaw::observe(const FrameSample& sample) {
+    if (!is_usable(sample.ms)) {
+        ++status_.bad_samples;
+        return;
+    }
+    status_.last_ms = sample.ms;
+    const Work& work = sample.work;
+    if (work.people > 0 || work.triangles > 0 || work.points > 0 || work.motion_updates > 0) {
+        const double people = counted(work.people), triangles = counted(work.triangles);
+        const double points = counted(work.points), updates = counted(work.motion_updates);
+        if (frame_amount_ == 0) {
+            const Amounts all = amounts_of(people, triangles, points, updates);
+            frame_amount_ = frame_share * (all.of[1] + all.of[2] + all.of[3] + all.of[4]);
+        }
+        work_.observe(amounts_of(people, triangles, points, updates), sample.ms);
+    }
+    if (!has_forecast_ && range_ > 0) axis_.observe(axis_amounts(drawn_detail(sample.decision)), sample.ms);
+}
+
+Decision PredictiveLaw::decide(const FrameRequest& request) {
+    if (is_usable(request.target_ms)) status_.target_ms = target_ms_ = request.target_ms;
+    if (is_usable(request.range)) range_ = request.range;
+    has_forecast_ = request.forecast && !request.forecast->motion.empty() && !request.forecast->splats.empty();
+    if (target_ms_ > 0 && range_ > 0) {
+        if (has_forecast_) {
+            decide_from(*request.forecast);
+        } else {
+            decide_on_axis();
+        }
+    }
+    return status_.decision;
+}
+
+// A share below the target, and lower for what is not known. Where even the coarsest is too slow, that one; but the
+// finest, if there is next to nothing between them.
+double PredictiveLaw::aim(double least_ms, double finest_ms, double uncertainty) const {
+    const double aim_ms = target_ms_ * (1 - options_.headroom);
+    if (least_ms > aim_ms) return finest_ms < (1 + options_.worthwhile) * least_ms ? finest_ms : least_ms;
+    return std::max(aim_ms * std::exp(-options_.caution * uncertainty), least_ms);
+}
+
+const char* PredictiveLaw::reason_to_move(const Prediction& kept, double aim_ms, double least_ms) const {
+    if (least_ms > target_ms_) return aim_ms > least_ms ? "out of reach, and detail costs nothing" : "out of reach";
+    return kept.log_ms > std::log(aim_ms) ? "would be slow: coarser" : "has time to spare: finer";
+}
+
+bool PredictiveLaw::is_kept(const Prediction& prediction, double aim_ms) const {
+    const double band = std::max(options_.band, options_.band_sigmas * prediction.uncertainty);
+    return std::abs(prediction.log_ms - std::log(aim_ms)) <= band;
+}
+
+void PredictiveLaw::believe(const Prediction& prediction, const CostModel& model) {
+    status_.predicted_ms = std::exp(prediction.log_ms);
+    status_.uncertainty = prediction.uncertainty;
+    status_.noise = model.noise();
+    status_.gain = model.gain();
+}
+
+void PredictiveLaw::believe_prices() {
+    const double pieces[price_count] = {frame_amount_, person_pieces, 1, point_pieces, update_pieces};
+    for (int i = 0; i < price_count; ++i) status_.price_ms[i] = work_.gain() * work_.price(i) * pieces[i];
+}
+
+// The detail that takes `ms`, in [0, 1].
+double PredictiveLaw::detail_for(double ms) const {
+    double time = axis_.gain() * axis_.price(0) * axis_frame;
+    for (int i = 0; i < detail_steps; ++i) {
+        const double step = axis_.gain() * axis_.price(i + 1) / detail_steps;
+        if (time + step > ms) return (i + std::clamp((ms - time) / step, 0.0, 1.0)) / detail_steps;
+        time += step;
+    }
+    return 1;
+}
+
+double PredictiveLaw::drawn_detail(const Decision& decision) const {
+    for (std::size_t i = 0; i < drawn_count_; ++i) {
+        if (drawn_[i].decision == decision) return drawn_[i].detail;
+    }
+    const double detail = detail_of(decision, range_);
+    return std::isfinite(detail) ? detail : 1;
+}
+
+void PredictiveLaw::decide_on_axis() {
+    if (axis_.is_ready()) {
+        const double least_ms = std::exp(axis_.predict(axis_amounts(0)).log_ms);
+        const double finest_ms = std::exp(axis_.predict(axis_amounts(1)).log_ms);
+        const Prediction now = axis_.predict(axis_amounts(detail_));
+        const double aim_ms = aim(least_ms, finest_ms, 0);
+        if (!is_kept(now, aim_ms)) {
+            const Prediction there = axis_.predict(axis_amounts(detail_for(aim_ms)));
+            detail_ = detail_for(aim(least_ms, finest_ms, there.uncertainty));
+            status_.reason = reason_to_move(now, aim_ms, least_ms);
+        }
+        believe(axis_.predict(axis_amounts(detail_)), axis_);
+    }
+    const Decision decision = decision_at(detail_, range_);
+    if (drawn_count_ == 0 || decision != status_.decision) {
+        std::rotate(drawn_.begin(), drawn_.end() - 1, drawn_.end());
+        drawn_.front() = {decision, detail_};
+        drawn_count_ = std::min(drawn_count_ + 1, drawn_.size());
+    }
+    status_.decision = decision;
+}
+
+Amounts PredictiveLaw::amounts_of(double people, double triangles, double points, double motion_updates) const {
+    Amounts amounts;
+    amounts.terms = 5;
+    amounts.of = {frame_amount_, person_pieces * people, triangles, point_pieces * points,
+                  update_pieces * motion_updates};
+    return amounts;
+}
+
+Prediction PredictiveLaw::predicted(const Forecast& forecast, const Plan& plan) const {
+    return work_.predict(amounts_of(counted(forecast.people), bounded(plan.triangles), bounded(plan.points),
+                                    bounded(plan.motion_updates)));
+}
+
+WorkPrices PredictiveLaw::prices(const Forecast& forecast) const {
+    const auto price = [&](Price kind) { return status_.price_ms[static_cast<std::size_t>(kind)]; };
+    return {price(Price::frame) + price(Price::person) * counted(forecast.people), price(Price::triangle),
+            price(Price::point), price(Price::motion_update)};
+}
+
+void PredictiveLaw::decide_from(const Forecast& forecast) {
+    if (!work_.is_ready()) return;
+    believe_prices();
+    const WorkPrices prices = this->prices(forecast);
+    const double least_ms = plan_ms(cheapest_plan(forecast), prices);
+    const Decision& last = status_.decision;
+    Plan plan = plan_at(forecast,
+                        last.state == State::original || last.motion_distance >= range_
+                            ? std::numeric_limits<double>::infinity()
+                            : last.motion_distance,
+                        last.splat_size);
+    const double finest_ms = plan_ms(finest_plan(forecast), prices);
+    const double aim_ms = aim(least_ms, finest_ms, 0);
+    Plan best = least_loss_plan(forecast, prices, aim_ms);
+    const Prediction kept = predicted(forecast, plan);
+    if (!is_kept(kept, aim_ms) || best.loss_px < plan.loss_px * (1 - options_.better)) {
+        plan = least_loss_plan(forecast, prices, aim(least_ms, finest_ms, predicted(forecast, best).uncertainty));
+        status_.reason = reason_to_move(kept, aim_ms, least_ms);
+        Decision& decision = status_.decision;
+        decision.splat_size = std::clamp(plan.size, 0.0, max_splat_size);
+        decision.motion_distance = plan.distance > 0 ? std::min(plan.distance, range_) : range_;
+        decision.state = plan.size > 0 ? State::points : plan.distance < range_ ? State::slowed : State::original;
+        if (decision.state == State::original) decision = {};
+    }
+    believe(predicted(forecast, plan), work_);
+}
+
+}  // namespace sfsm

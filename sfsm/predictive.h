@@ -1,0 +1,65 @@
+// The default law: it learns what work costs and draws the finest frame that is predicted to meet the target. With a
+// forecast it answers a camera cut, a new target or a crowd pouring in within the frame they happen; without one it
+// learns what the one axis of decisions (detail.h) costs. docs/controller.md tells the story.
+#pragma once
+
+#include <array>
+
+#include "sfsm/controller.h"
+#include "sfsm/cost_model.h"
+#include "sfsm/least_loss.h"
+
+namespace sfsm {
+
+struct PredictiveOptions {
+    double headroom = 0.0075;  // frames are aimed at (1 - headroom) t, [0, 0.5]
+    double caution = 0.25;     // and lower by so many sigmas of what is not known of the decision, [0, 3]
+    double band = 0.006;       // a decision is kept while predicted so near to its aim, relative, [0, 0.2]
+    double band_sigmas = 2.6;  // or so many sigmas of the prediction, [0, 6]
+    double worthwhile = 0.05;  // where the target can't be met, all detail is kept if losing it gains less, [0, 1]
+    double better = 0.1;       // share of loss for which another decision of equal time is taken, [0, 1]
+
+    // Throws std::invalid_argument naming the first broken rule.
+    void validate() const;
+};
+
+class PredictiveLaw final : public Controller {
+public:
+    explicit PredictiveLaw(const PredictiveOptions& options = {});  // throws as validate() does
+
+    void observe(const FrameSample& sample) override;
+    Decision decide(const FrameRequest& request) override;
+    const Status& status() const override { return status_; }
+
+private:
+    struct Drawn {
+        Decision decision;
+        double detail = 1;
+    };
+
+    void decide_on_axis();
+    void decide_from(const Forecast& forecast);
+    double detail_for(double ms) const;
+    double drawn_detail(const Decision& decision) const;
+    Amounts amounts_of(double people, double triangles, double points, double motion_updates) const;
+    Prediction predicted(const Forecast& forecast, const Plan& plan) const;
+    WorkPrices prices(const Forecast& forecast) const;
+    bool is_kept(const Prediction& prediction, double aim_ms) const;
+    double aim(double least_ms, double finest_ms, double uncertainty) const;
+    void believe(const Prediction& prediction, const CostModel& model);
+    void believe_prices();
+    const char* reason_to_move(const Prediction& kept, double aim_ms, double least_ms) const;
+
+    PredictiveOptions options_;
+    Status status_;
+    CostModel work_;           // terms: frame, people, triangles, points, motion updates
+    CostModel axis_;           // terms: frame, steps of detail
+    double frame_amount_ = 0;  // of work_'s first term; 0 until work has been seen
+    double target_ms_ = 0, range_ = 0;
+    bool has_forecast_ = false;
+    double detail_ = 1;
+    std::array<Drawn, 16> drawn_{};  // the newest decisions on the axis (L may have moved since)
+    std::size_t drawn_count_ = 0;
+};
+
+}  // namespace sfsm
