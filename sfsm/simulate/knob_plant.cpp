@@ -33,11 +33,6 @@ double stepped_curve(double u) {
     return toy_curve(std::floor(u * levels) / levels);
 }
 
-double flat_end_curve(double u) {
-    constexpr double knee = 0.5, slope_beyond = 0.05;
-    return toy_curve(std::min(u, knee)) + slope_beyond * std::max(0.0, u - knee);
-}
-
 KnobPlant::KnobPlant(KnobModel model) : model_(std::move(model)) {
     for (std::size_t i = 0; i <= curve_steps; ++i) curve_.push_back(model_.curve(knob_at(i)));
     least_ = *std::min_element(curve_.begin(), curve_.end());

@@ -15,10 +15,9 @@ using KnobCurve = double (*)(double u);
 inline constexpr double least_knob = 0.05;
 
 // Curves of u in [least_knob, 1], in shares of the nominal time.
-double toy_curve(double u);       // 0.3 + 1.2 u
-double wavy_curve(double u);      // the toy's and a wave on it that falls as u grows, in three places
-double stepped_curve(double u);   // the toy's with u rounded down to eighths, as levels of detail do
-double flat_end_curve(double u);  // the toy's up to u = 0.5, hardly more beyond: far detail is culled anyway
+double toy_curve(double u);      // 0.3 + 1.2 u
+double wavy_curve(double u);     // the toy's and a wave on it that falls as u grows, in three places
+double stepped_curve(double u);  // the toy's with u rounded down to eighths, as levels of detail do
 
 struct KnobModel {
     double nominal_ms = 1000.0 / 60;  // what curve and load are shares of

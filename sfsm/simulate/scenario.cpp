@@ -4,31 +4,11 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "sfsm/simulate/knob_plant.h"
+#include "sfsm/simulate/catalogue.h"
 #include "sfsm/simulate/noise.h"
 
 namespace sfsm::simulate {
 namespace {
-
-// L(k) of the toy check: steps up and down by 1.6, then a ramp.
-double toy_load(std::int64_t frame) {
-    if (frame < 900) return 1;
-    if (frame < 1800) return 1.6;
-    if (frame < 2700) return 1;
-    return 1 + 0.5 * static_cast<double>(frame - 2700) / 900;
-}
-
-Scenario toy() {
-    Scenario scenario;
-    scenario.name = "toy";
-    scenario.about = "the toy check: one knob, steps and a ramp of load, 3 % noise, spikes, 2 frames late";
-    scenario.plant = std::make_shared<KnobPlant>(KnobModel{.load = toy_load, .cpu_ms = {}, .range_m = {}});
-    scenario.noise = 0.03;
-    scenario.spike_share = 0.005;
-    scenario.steps = {{900, true}, {1800, false}};
-    scenario.steady = {{200, 900}, {1100, 1800}, {2000, 2700}};
-    return scenario;
-}
 
 struct Entry {
     std::string_view name;
@@ -36,6 +16,31 @@ struct Entry {
 };
 constexpr std::array entries = {
     Entry{"toy", toy},
+    Entry{"delay-0", delay_0},
+    Entry{"delay-4", delay_4},
+    Entry{"spikes", spikes},
+    Entry{"quiet", quiet},
+    Entry{"quiet-noisy", quiet_noisy},
+    Entry{"vsync", vsync},
+    Entry{"cpu-bound", cpu_bound},
+    Entry{"unreachable", unreachable},
+    Entry{"light-load", light_load},
+    Entry{"wavy", wavy},
+    Entry{"stepped", stepped},
+    Entry{"moving-range", moving_range},
+    Entry{"target-step", target_step},
+    Entry{"hitch", hitch},
+    Entry{"pause", pause},
+    Entry{"loading", loading},
+    Entry{"quiet-forecast", quiet_forecast},
+    Entry{"target-step-forecast", target_step_forecast},
+    Entry{"camera-cut", camera_cut},
+    Entry{"crowd-pours-in", crowd_pours_in},
+    Entry{"throttled", throttled},
+    Entry{"paper-1", paper_1},
+    Entry{"paper-1-noisy", paper_1_noisy},
+    Entry{"paper-2", paper_2},
+    Entry{"paper-2-noisy", paper_2_noisy},
 };
 constexpr auto names = [] {
     std::array<std::string_view, entries.size()> list{};
@@ -51,7 +56,10 @@ std::span<const std::string_view> scenario_names() {
 
 Scenario make_scenario(std::string_view name) {
     for (const Entry& entry : entries) {
-        if (entry.name == name) return entry.make();
+        if (entry.name != name) continue;
+        Scenario scenario = entry.make();
+        scenario.name = name;
+        return scenario;
     }
     std::string message = "found scenario '" + std::string(name) + "', expected one of:";
     for (const std::string_view known : names) message.append(" ").append(known);

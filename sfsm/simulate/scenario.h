@@ -21,15 +21,16 @@ struct Frames {
 };
 
 // Frames that take a time of their own, whatever is drawn: a hitch, a pause, a loading screen. They count in no share.
+// In the order of frames, the first not before frame 60.
 struct Interruption {
     Frames frames;
     double ms = 0;  // any number, also none
 };
 
-// Where load or target change at once.
+// Load or target change at once, and that holds for a while.
 struct LoadStep {
-    std::int64_t frame = 0;  // the first under the new load
-    bool is_down = false;    // detail has to go down to stay in time
+    Frames frames;         // under the new load
+    bool is_down = false;  // detail has to go down to stay in time
 };
 
 struct Scenario {

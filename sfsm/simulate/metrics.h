@@ -1,0 +1,52 @@
+// What a run was worth: the figures of the scorecard, each defined here.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "sfsm/simulate/course.h"
+
+namespace sfsm::simulate {
+
+// T: measured time; t: the user's target; d: the detail of a frame's decision; C: its cost, free of noise.
+// Judged are the frames from statistics_from on that are not interrupted and in which t can be met (the best decision
+// costs no more). Without any: zeros.
+struct Metrics {
+    double over_target = 0;     // share of judged frames with T > t
+    double over_5pct = 0;       // ... T > 1.05 t
+    double within_5pct = 0;     // ... |T - t| <= 5 % of t
+    double within_10pct = 0;    // ... |T - t| <= 10 % of t
+    double control_rate = 0;    // mean over judged frames of max(0, 1 - |T - t| / t)
+    double worst_second = 0;    // largest share of frames with T > 1.05 t in a stretch of judged frames that lasts 1 s
+    double hitch_ms_per_s = 0;  // sum of max(0, T - t) over the sum of T, of judged frames [ms/s]
+
+    // Sum of d over the sum of the best decisions' d, of the frames from statistics_from on that are not interrupted,
+    // whether t can be met or not.
+    double quality = 0;
+
+    // Frames from a step of load or target until the law has settled: from then on, in 57 of 60 frames, the running
+    // median of T / t of the last 9 frames is within 10 % of 1. 0: the median never left. A run's is that of its
+    // slowest step; nothing where it did not settle while that load lasted, or there is no such step.
+    std::optional<double> settle_down, settle_up;
+    // The same of C instead of the median: what the law did, not what a median of 9 lets pass. 0: the very first frame
+    // drawn under the new load was in band.
+    std::optional<double> cost_settle_down, cost_settle_up;
+
+    // Largest C / t - 1 in the judged frames, in percent, at least 0. Left out: from each step on the 1 + delay frames
+    // that no law can have known of, where there is no forecast.
+    double overshoot_pct = 0;
+
+    // Of the steady frames: how often d turns around, how far it goes in all, and how often the decision differs from
+    // the one before.
+    double reversals_per_1000 = 0;
+    double variation_per_1000 = 0;
+    double changes_per_1000 = 0;
+
+    // Frames from the end of the last interruption until d is back: within 2 % of its mean in the 60 frames before the
+    // first interruption, in 57 of the next 60 frames. 0: it never left. Nothing: never back, or no interruption.
+    std::optional<double> recovery;
+};
+
+Metrics measure(const Course& course, std::span<const Outcome> outcomes);
+
+}  // namespace sfsm::simulate

@@ -1,0 +1,26 @@
+// The clairvoyant: it knows what every decision will cost in the frame about to be drawn, all but its noise, and takes
+// the one of most detail that costs no more than the target. What no law can better without knowing the noise.
+#pragma once
+
+#include "sfsm/simulate/course.h"
+
+namespace sfsm::simulate {
+
+inline constexpr std::string_view oracle_name = "oracle";
+
+// Knows frames by counting decide(). The course must outlive it.
+class Oracle final : public Controller {
+public:
+    explicit Oracle(const Course& course) : course_(&course) {}
+
+    void observe(const FrameSample& sample) override { status_.last_ms = sample.ms; }
+    Decision decide(const FrameRequest& request) override;
+    const Status& status() const override { return status_; }
+
+private:
+    const Course* course_;
+    std::size_t frame_ = 0;
+    Status status_;
+};
+
+}  // namespace sfsm::simulate

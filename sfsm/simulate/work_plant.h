@@ -1,0 +1,70 @@
+// A renderer that can say what it will draw: what a frame costs is prices times counts of work, as in the real one, and
+// the counts of every candidate are known beforehand. The prices are not.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "sfsm/simulate/plant.h"
+
+namespace sfsm::simulate {
+
+// Of one unit of each kind of work [ms].
+struct Prices {
+    double frame = 0;  // whatever is drawn
+    double person = 0;
+    double triangle = 0;
+    double point = 0;
+    double update = 0;  // of a person's pose
+};
+
+// What the camera sees. Nearer than depth x L there are x^farness of the people: a crowd on the far stands has a large
+// farness. Those beyond D are all taken to be about L away, where equation 1 gives f = 1 + theta (L - D).
+struct View {
+    double people = 0;
+    double range = 300;            // L [m]
+    double farness = 2;            // > 0
+    double theta = 0.1;            // [1/m] of equation 1
+    double triangles_each = 1000;  // of a person
+    double points_each = 1500;     // of a person at S = 1 px; in proportion to 1 / S
+    double surface_px = 0.05;      // how far a moving person's surface gets in a frame [px]
+};
+
+// Half way from one view to another at 0.5. `share` in [0, 1].
+View between(const View& from, const View& to, double share);
+
+// Loss [px] of a decision: poses are half a period old on average, outlines half a splat off; the two add up. Detail is
+// 1 / (1 + loss): 1 where nothing is lost, a half where a pixel is.
+class WorkPlant final : public Plant {
+public:
+    using ViewAt = std::function<std::size_t(std::int64_t frame)>;  // an index into `views`
+    using LoadAt = std::function<double(std::int64_t frame)>;       // multiplies all prices; empty: 1
+
+    WorkPlant(const Prices& prices, std::vector<View> views, ViewAt view_at, LoadAt load_at = {});
+
+    double range(std::int64_t frame) const override;
+    const Forecast* forecast(std::int64_t frame) const override;
+    double cost_ms(std::int64_t frame, const Decision& decision) const override;
+    Work work(std::int64_t frame, const Decision& decision) const override;
+    double detail(std::int64_t frame, const Decision& decision) const override;
+    Decision optimum(std::int64_t frame, double limit_ms) const override;
+
+private:
+    struct Tables {
+        std::vector<MotionStep> motion;
+        std::vector<SplatStep> splats;
+        Forecast forecast;
+    };
+
+    static Tables tables_of(const View& view);
+    const View& view(std::int64_t frame) const { return views_[view_at_(frame)]; }
+    double load(std::int64_t frame) const { return load_at_ ? load_at_(frame) : 1.0; }
+
+    Prices prices_;
+    std::vector<View> views_;
+    std::vector<Tables> tables_;  // of each view
+    ViewAt view_at_;
+    LoadAt load_at_;
+};
+
+}  // namespace sfsm::simulate
