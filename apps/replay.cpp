@@ -1,4 +1,5 @@
-// replay: a recorded run through a law again, to see what it would decide, or to prove that it decided so.
+// replay: a recorded run through a law again, to see what it would decide, or to prove that it decided so; or, closed
+// in a loop with a simulated renderer, what laws are worth.
 #include "sfsm/replay.h"
 
 #include <cerrno>
@@ -12,6 +13,7 @@
 
 #include "apps/output.h"
 #include "apps/program.h"
+#include "apps/simulate.h"
 #include "sfsm/controller.h"
 #include "sfsm/number_text.h"
 #include "sfsm/summary.h"
@@ -27,19 +29,22 @@ struct Options {
     std::string csv;
     std::string summary;
     bool verify = false;
+    apps::SimulateOptions simulated;
 };
 
-constexpr const char* examples = R"(Examples:
+const std::string examples = R"(Examples:
   replay out/stadium.csv                                what the trace's law would decide, summed up
   replay out/stadium.csv --target-ms 1000,300@30 --csv decisions.csv --summary -
   replay out/stadium.csv --verify                       is every recorded decision reproduced to the bit?
+)" + std::string(apps::simulate_examples) +
+                             R"(
 
 Replaying is open loop: each recorded time is taken for the time of the law's own decision.
 With --verify, failed is also what is not reproduced.)";
 
 void add_options(CLI::App& app, Options& options) {
     apps::describe(app, examples);
-    app.add_option("TRACE", options.trace, "Trace of a run, as stadium --trace writes it (required)");
+    auto* trace = app.add_option("TRACE", options.trace, "Trace of a run, as stadium --trace writes it");
     const std::span<const std::string_view> names = sfsm::law_names();
     const std::vector<std::string> laws(names.begin(), names.end());
     auto* law = app.add_option("--law", options.law, "Law to feed; default: the trace's")->check(CLI::IsMember(laws));
@@ -47,8 +52,10 @@ void add_options(CLI::App& app, Options& options) {
                                   "Target, MS[,MS@FRAME ...] in milliseconds; default: the trace's, frame by frame");
     auto* csv = app.add_option("--csv", options.csv, "Write the decisions as a trace (- = stdout)");
     auto* summary = app.add_option("--summary", options.summary, "Write the summary as JSON (- = stdout, the default)");
-    app.add_flag("--verify", options.verify, "Only check that the trace's law reproduces the recorded decisions")
-        ->excludes(law, target, csv, summary);
+    auto* verify =
+        app.add_flag("--verify", options.verify, "Only check that the trace's law reproduces the recorded decisions")
+            ->excludes(law, target, csv, summary);
+    apps::add_simulate_options(app, options.simulated)->excludes(trace, law, target, summary, verify);
 }
 
 sfsm::Trace read(const std::string& path) {
@@ -121,20 +128,30 @@ void replay(const Options& options) {
 }
 
 // What CLI11 cannot see; throws std::invalid_argument.
-void check(const Options& options) {
-    if (options.trace.empty()) throw std::invalid_argument("found no TRACE, expected the trace of a run");
+void check(Options& options) {
+    options.simulated.csv = options.csv;
+    if (!options.simulated.scenario.empty()) return apps::check(options.simulated);
+    if (options.trace.empty()) {
+        throw std::invalid_argument("found no TRACE, expected the trace of a run or --simulate");
+    }
     if (options.csv == "-" && options.summary == "-") {
         throw std::invalid_argument("found --csv - and --summary -, expected at most one of them on standard output");
     }
     if (!options.target_ms.empty()) sfsm::TargetSchedule::parse(options.target_ms);
 }
 
+void run(const Options& options) {
+    if (!options.simulated.scenario.empty()) return apps::simulate(options.simulated);
+    if (options.verify) return verify(options.trace);
+    replay(options);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Feeds a recorded run through a control law and writes what the law would decide.", "replay");
+    CLI::App app("Feeds a recorded or a simulated run through control laws, and says what they decide.", "replay");
     Options options;
     add_options(app, options);
     return apps::run_program(
-        app, argc, argv, [&] { check(options); }, [&] { options.verify ? verify(options.trace) : replay(options); });
+        app, argc, argv, [&] { check(options); }, [&] { run(options); });
 }

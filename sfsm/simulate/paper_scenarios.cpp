@@ -11,17 +11,18 @@ constexpr double low_noise = 0.005;
 constexpr double usual_noise = 0.03;
 
 // Calibrated to the times the paper reports of its machine for 20,000 people of 1,000 triangles; it has no prices.
-// - State 0 "1.0 fps" with a target of 1000 ms: 980 ms, four sigma of the low noise under the target, or noise
-//   alone would leave the state that the paper stays in for 30 frames.
-// - State 1 reaches 300 ms ("3.3 fps"), so motion must be most of the 980: at D = 0.72 L, above the paper's boundary
+// - State 0 "1.0 fps" with a target of 1000 ms: 980 ms, four sigma of the low noise under the target, or noise alone
+//   would leave the state that the paper stays in for 30 frames.
+// - State 1 reaches 300 ms ("3.3 fps"), so motion must be most of the 980: at D = 0.75 L, above the paper's boundary
 //   of 2/3 L, with nearly everybody on the far stands (farness 16).
-// - State 2 reaches 95 ms "(+-10)" ("10.5 fps"): at D = 0.2 L between S = 1.5 px and 3 px, one and two steps of its
-//   tau, which takes 99 ms and 87 ms.
+// - State 2 reaches 95 ms "(+-10)" ("10.5 fps"): with D at L / 6 between S = 1.5 px and 3 px, one and two steps of its
+//   tau, which take 99 ms and 82 ms; with D at 2/3 L at S = 7 px.
 // - Time goes with 1 / S, as between its 21.3 fps at 0.2 px and 65.5 fps at 1 px; 7,773 points a person at 0.2 px are
 //   1,555 at 1 px.
-constexpr Prices paper_machine{.frame = 24, .person = 0.001, .triangle = 8.6e-6, .point = 1.16e-6, .update = 0.0382};
+constexpr Prices paper_machine{
+    .frame = 31.5, .person = 0.001, .triangle = 9.765e-6, .point = 1.576e-6, .update = 0.03665};
 constexpr View static_view{.people = 20000,
-                           .range = 300,
+                           .range = 600,
                            .farness = 16,
                            .theta = 0.1,
                            .triangles_each = 1000,
@@ -30,24 +31,24 @@ constexpr View static_view{.people = 20000,
 
 // Of the second experiment the paper reports the control rates alone. The people in view are ours, such that without
 // control (state 0 throughout) it is the paper's 69.7 % at 95 ms, and so are their distances.
-constexpr View close_view{.people = 1580,
+constexpr View close_view{.people = 1450,
                           .range = 200,
-                          .farness = 2,
-                          .theta = 0.05,
+                          .farness = 2.5,
+                          .theta = 0.1,
                           .triangles_each = 1000,
                           .points_each = 4000,
                           .surface_px = 0.3};
-constexpr View medium_view{.people = 2050,
+constexpr View medium_view{.people = 1920,
                            .range = 250,
-                           .farness = 2.5,
-                           .theta = 0.05,
+                           .farness = 3,
+                           .theta = 0.1,
                            .triangles_each = 1000,
                            .points_each = 2500,
                            .surface_px = 0.1};
-constexpr View remote_view{.people = 2630,
+constexpr View remote_view{.people = 2470,
                            .range = 300,
-                           .farness = 3,
-                           .theta = 0.05,
+                           .farness = 4,
+                           .theta = 0.1,
                            .triangles_each = 1000,
                            .points_each = 1555,
                            .surface_px = 0.05};

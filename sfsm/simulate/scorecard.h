@@ -1,0 +1,53 @@
+// All laws through all scenarios on paired noise, and what they were worth: medians over the seeds.
+#pragma once
+
+#include <functional>
+#include <iosfwd>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sfsm/simulate/metrics.h"
+
+namespace sfsm::simulate {
+
+// A law, and how to make a fresh one for a run. The course is for those that may look ahead.
+struct Contestant {
+    std::string name;
+    std::function<std::unique_ptr<Controller>(const Course&)> make;
+    bool is_retuned = true;  // also takes part with equal-miss
+};
+
+// Laws aim at different set points. `own`: at the target as they were written. `equal-miss`: at the share of it at
+// which as many frames are over 1.05 t as with the reference law, or as nearly as it can be had from below.
+enum class Tuning { own, equal_miss };
+const char* tuning_name(Tuning tuning);
+
+struct Row {
+    std::string scenario, law;
+    Tuning tuning = Tuning::own;
+    double target_factor = 1;
+    // Medians over the seeds, each figure for itself; of a figure that may be missing, that is more than any number.
+    Metrics median;
+    double worst_over_5pct = 0;  // of all seeds
+    double worst_quality = 0;
+    double oracle_over_5pct = 0;  // median
+    double us_per_frame = 0;      // of decide and observe; 0 without a clock
+    bool has_step_down = false, has_step_up = false, has_interruption = false;  // tells "never" from "not asked"
+};
+
+struct ScorecardOptions {
+    std::vector<Scenario> scenarios;
+    std::vector<Contestant> laws;
+    Contestant reference;                        // whose misses the others are retuned to
+    int seeds = 30;                              // 1, 2, ... seeds; >= 1
+    std::function<double()> now_us;              // a clock; may be empty
+    std::function<void(double share)> progress;  // from any thread, one at a time; may be empty
+};
+
+// Rows by scenario, then law, then tuning, in the order given; the same for any number of cores, but for the times.
+// Works in two threads.
+std::vector<Row> scorecard(const ScorecardOptions& options);
+
+}  // namespace sfsm::simulate
