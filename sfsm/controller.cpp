@@ -6,6 +6,7 @@
 
 #include "sfsm/paper.h"
 #include "sfsm/predictive.h"
+#include "sfsm/safeguarded.h"
 
 namespace sfsm {
 namespace {
@@ -17,6 +18,7 @@ struct Law {
 
 constexpr std::array laws = {
     Law{"predictive", [] { return std::unique_ptr<Controller>(std::make_unique<PredictiveLaw>()); }},
+    Law{"safeguarded", [] { return std::unique_ptr<Controller>(std::make_unique<SafeguardedLaw>()); }},
     Law{"paper", [] { return std::unique_ptr<Controller>(std::make_unique<PaperLaw>()); }},
 };
 

@@ -1,0 +1,121 @@
+// The paper's law made safe: its measurements (frame times), its knobs (D, S) and its three states, without a forecast,
+// and without what breaks the printed law. A step is taken when the times of the present decision differ from the
+// target by more than their noise; it is a secant step, kept inside the bracket of details known to be too slow and
+// fast enough. docs/controller.md tells the story and shows the table.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "sfsm/controller.h"
+
+namespace sfsm {
+
+struct SafeguardedConstants {
+    double dead_band = 0.005;     // misses up to this share of t are none, [0, 0.2]
+    double trust = 3;             // standard errors that a difference must exceed to be one, [1, 6]
+    double outlier = 5;           // standard deviations beyond which one time alone is a hitch, [trust, 20]
+    int horizon = 64;             // times that the mean of an unchanged decision looks back, [8, 4096]
+    int settled = 16;             // times without a miss after which a new one means another scene, [2, horizon]
+    double blind_step = 0.05;     // detail; a step this long in state 1 with no effect: D has no authority, (0, 1/3)
+    double no_gain = 0.05;        // share of time; all detail lost for less than this is given back, (0, 1)
+    double same_level = 0.05;     // share of time; a hold ends when times have moved by more, (0, 1)
+    double least_width = 0.002;   // detail; a bracket this narrow has a jump in it, (0, 0.1)
+    double return_margin = 0.01;  // detail above 2/3 that a return from state 2 needs, [0, 1/3)
+    int first_patience = 16;      // times; the wait after a failed return from state 2, doubled by each, >= 1
+    int trial = 64;               // a return that lasts for so many times has not failed, >= 1
+    int hold = 2048;              // times; a hold lasts so long, doubled by each in a row, >= 1
+    int longest_wait = 32768;     // times; the most that doubling comes to, >= first_patience and hold
+
+    // Throws std::invalid_argument naming the first broken rule.
+    void validate() const;
+};
+
+// The times drawn with one detail, as logarithms of ms. A hitch is kept apart until the next time confirms it.
+struct Dwell {
+    int times = 0;     // that count; at most the horizon
+    double level = 0;  // their mean
+    double hitch = 0;  // waits to be confirmed
+    bool has_hitch = false;
+};
+
+// What one detail has cost: level [log ms] known to `error` (one standard error).
+struct Cost {
+    bool is_known = false;
+    double detail = 0;
+    double level = 0;
+    double error = 0;
+};
+
+enum class Verdict { fine, slow, fast };
+
+// What the machine remembers; the guards and actions of the table are functions of it.
+struct SafeguardedMemory {
+    State state = State::original;
+    double detail = 1;  // [0, 1], sfsm/detail.h
+    double target = 0;  // log t
+    double noise = 0;   // standard deviation of log T, robust
+    Dwell dwell;
+    int quiet = 0;  // times since the last step or miss; at most `settled`
+    Verdict verdict = Verdict::fine;
+    double next = 1;   // detail that the verdict asks for
+    double slope = 0;  // (dT / d detail) / T at slope_detail; 0: none learned
+    double slope_detail = 1;
+    Cost fast_end, slow_end;  // the bracket
+    double width = 1;         // of the bracket after the step before
+    Cost before;              // the last step's start
+    Cost top;                 // where the search went down from
+    bool is_blind = false;    // the last step in state 1 had no effect
+    bool is_held = false;     // nothing better is near: wait
+    bool is_trial = false;    // the hold has lasted long enough: try the slow end again
+    double held_level = 0;    // [log ms]
+    int held_times = 0, hold = 0;
+    int since_return = 0, wait = 0;  // times since state 2 was last left; those that the next return must wait
+    int since_points = 0;            // times since state 2 was last entered
+};
+
+// The first row of the present state whose guard holds is taken, once for every time that answers the last decision and
+// for every change of target.
+struct SafeguardedTransition {
+    const char* edge;  // "a".."g" between states, "" within one
+    State from, to;
+    bool (*holds)(const SafeguardedMemory&, const SafeguardedConstants&);
+    void (*act)(SafeguardedMemory&, const SafeguardedConstants&);
+    const char* when;    // the guard, in words
+    const char* then;    // the action, in words
+    const char* reason;  // for Status
+};
+std::span<const SafeguardedTransition> safeguarded_transitions();
+
+// Decisions lie on the axis of sfsm/detail.h, so D is a share of L wherever L moves, and S in [0.5, 32] px. A time
+// counts for the decision it was drawn with, however late (up to 32 distinct decisions); times of earlier ones are
+// ignored. Under 1 us a frame.
+class SafeguardedLaw final : public Controller {
+public:
+    explicit SafeguardedLaw(const SafeguardedConstants& constants = {});  // throws as validate() does
+
+    void observe(const FrameSample& sample) override;
+    Decision decide(const FrameRequest& request) override;
+    const Status& status() const override { return status_; }
+    const SafeguardedMemory& memory() const { return memory_; }
+
+private:
+    void retarget(double target_ms);
+    void step();
+    void drawn_with(const Decision& decision);
+    double robust_noise() const;
+
+    SafeguardedConstants constants_;
+    SafeguardedMemory memory_;
+    Status status_;
+    double range_ = 0;                  // L [m]; 0: none yet
+    std::array<double, 32> changes_{};  // |log T_i - log T_{i-1}| of equal decisions, newest first
+    std::size_t change_count_ = 8;      // the first ones are assumed
+    double last_level_ = 0;             // log of the newest time of the present detail
+    bool has_last_ = false;             // there is one
+    std::array<Decision, 32> drawn_{};  // the distinct decisions of the present detail (L may move them)
+    std::size_t drawn_count_ = 0;
+    bool is_new_ = false;  // a time or a target to judge
+};
+
+}  // namespace sfsm
