@@ -1,5 +1,8 @@
-// Intel's dynamic resolution rendering sample: a slow integrator of the mean time. A frame here has no time apart from
-// the GPU's, so the sample's blend of both is the measured one.
+// Intel's dynamic resolution rendering sample: a slow integrator of the mean time turns a scale per axis, so the
+// rendered area (detail) is its square. A frame here has no time apart from the GPU's: the sample's blend of both is
+// that time.
+#include <cmath>
+
 #include "sfsm/rivals/laws.h"
 #include "sfsm/rivals/one_knob.h"
 #include "sfsm/rivals/window.h"
@@ -14,7 +17,8 @@ class Intel final : public OneKnob {
     void learn(const Measured& measured) override {
         loads_.push(measured.load);
         const double error = 1 - loads_.mean();
-        turn_to(detail() * (1 + rate * error), error < 0 ? "slow" : "fast");
+        const double scale = std::sqrt(detail()) * (1 + rate * error);
+        turn_to(scale * scale, error < 0 ? "slow" : "fast");
     }
 
     Window<history> loads_;
