@@ -30,12 +30,6 @@ std::optional<Command> command_of(int key) {
             return Command::preset_4;
         case GLFW_KEY_5:
             return Command::preset_5;
-        case GLFW_KEY_EQUAL:
-        case GLFW_KEY_KP_ADD:
-            return Command::raise_target;
-        case GLFW_KEY_MINUS:
-        case GLFW_KEY_KP_SUBTRACT:
-            return Command::lower_target;
         case GLFW_KEY_P:
             return Command::pause;
         case GLFW_KEY_F12:
@@ -45,14 +39,35 @@ std::optional<Command> command_of(int key) {
     }
 }
 
-}  // namespace
+// By what is typed, as + has another key on every layout. = shares its key where + needs shift.
+std::optional<Command> command_of_character(unsigned int character) {
+    switch (character) {
+        case '+':
+        case '=':
+            return Command::raise_target;
+        case '-':
+            return Command::lower_target;
+        default:
+            return std::nullopt;
+    }
+}
 
-bool Window::display_available() {
+bool display_named() {
     const auto set = [](const char* name) {
         const char* value = std::getenv(name);
         return value && *value;
     };
     return set("DISPLAY") || set("WAYLAND_DISPLAY");
+}
+
+}  // namespace
+
+bool Window::display_available(std::string* obstacle) {
+    if (!display_named()) return false;
+    const bool usable = glfwInit() == GLFW_TRUE;
+    if (!usable && obstacle) *obstacle = "found no usable display (" + glfw_error() + ")";
+    if (usable) glfwTerminate();
+    return usable;
 }
 
 Window::Window(const std::string& title, int width, int height) {
@@ -89,9 +104,13 @@ void Window::watch_keys() {
         self->height_ = height;
     });
     glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int) {
-        if (action == GLFW_RELEASE) return;
+        if (action != GLFW_PRESS) return;
         if (key == GLFW_KEY_ESCAPE) glfwSetWindowShouldClose(window, GLFW_TRUE);
         if (const auto command = command_of(key))
+            static_cast<Window*>(glfwGetWindowUserPointer(window))->commands_.push_back(*command);
+    });
+    glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned int character) {  // repeats while the key is held
+        if (const auto command = command_of_character(character))
             static_cast<Window*>(glfwGetWindowUserPointer(window))->commands_.push_back(*command);
     });
 }
@@ -104,7 +123,7 @@ Input Window::poll() {
     input.forward = held(GLFW_KEY_W) - held(GLFW_KEY_S);
     input.right = held(GLFW_KEY_D) - held(GLFW_KEY_A);
     input.up = held(GLFW_KEY_E) - held(GLFW_KEY_Q);
-    input.hurry = held(GLFW_KEY_LEFT_SHIFT) > 0;
+    input.hurry = held(GLFW_KEY_LEFT_SHIFT) + held(GLFW_KEY_RIGHT_SHIFT) > 0;
 
     double x = 0, y = 0;
     glfwGetCursorPos(window_, &x, &y);

@@ -8,7 +8,7 @@ struct GLFWwindow;
 
 namespace render {
 
-// Single presses, in the order they came.
+// Presses, in the order they came; a key that is held repeats only raise_target and lower_target.
 enum class Command { preset_1, preset_2, preset_3, preset_4, preset_5, raise_target, lower_target, pause, screenshot };
 
 // Since the last poll.
@@ -27,8 +27,8 @@ public:
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
-    // Whether a window can be had at all on this machine.
-    static bool display_available();
+    // Whether a display is named and answers. If it is named and doesn't, `obstacle` says why; else it stays as it was.
+    static bool display_available(std::string* obstacle = nullptr);
 
     Input poll();
     bool closed() const;
