@@ -16,9 +16,28 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t most_file_bytes = 0xffffffffu;         // lengths in GLB are 32 bits
 constexpr std::size_t most_image_bytes = std::size_t{1} << 30;  // encoded, kept until the textures are decoded
 
+// What is there in place of a file. Only regular files are opened: a pipe may block, and /dev/zero has no end.
+std::string kind_of(const fs::path& path, const std::error_code& error, fs::file_type type) {
+    if (path.empty()) return "an empty name";
+    switch (type) {
+        case fs::file_type::not_found:
+            return "no such file";
+        case fs::file_type::directory:
+            return "a directory";
+        case fs::file_type::character:
+        case fs::file_type::block:
+            return "a device";
+        case fs::file_type::fifo:
+            return "a pipe";
+        default:
+            return error ? "a file that can't be read (" + error.message() + ")" : "no file of bytes";
+    }
+}
+
 std::vector<unsigned char> read_file(const fs::path& path) {
     std::error_code error;
-    if (!fs::is_regular_file(path, error)) fail("no such file", "a readable glTF or GLB file");
+    const fs::file_type type = fs::status(path, error).type();
+    if (type != fs::file_type::regular) fail(kind_of(path, error, type), "a readable glTF or GLB file");
     const std::uintmax_t size = fs::file_size(path, error);
     if (error || size > most_file_bytes) fail(std::to_string(size) + " bytes", "a file below 4 GiB");
     std::vector<unsigned char> bytes(static_cast<std::size_t>(size));

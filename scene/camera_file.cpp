@@ -1,4 +1,5 @@
 // load_camera_path: a JSON file, distrusted.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
