@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "apps/output.h"
+#include "apps/places.h"
 #include "apps/program.h"
 #include "apps/progress.h"
 #include "motion/pose.h"
@@ -175,8 +176,9 @@ void run(const Options& options) {
 // What CLI11 cannot see; throws std::invalid_argument.
 void check(const Options& options) {
     if (!options.pose.empty()) parse_pose(options.pose);
-    if (options.output == options.stats)
-        throw std::invalid_argument("found --out and --stats both " + options.output + ", expected two places");
+    const apps::Place inputs[] = {{"IN", options.input}};
+    const apps::Place outputs[] = {{"--out", options.output}, {"--stats", options.stats}};
+    apps::check_places(inputs, outputs);
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
 #include "apps/stadium_options.h"
 
+#include <algorithm>
 #include <charconv>
 #include <limits>
 
+#include "apps/places.h"
 #include "apps/program.h"
 #include "scene/camera_path.h"
 
@@ -10,7 +12,8 @@ namespace apps {
 
 namespace {
 
-constexpr int largest_side = 8192;  // [px]
+constexpr int largest_side = 8192;           // [px]
+constexpr std::size_t most_characters = 64;  // they share one budget for their poses
 
 constexpr const char* examples = R"(Examples:
   stadium                                       roam the stadium at 60 frames a second
@@ -77,6 +80,7 @@ void add_control_options(CLI::App& app, StadiumOptions& options) {
                                          "Frame time to hold [ms]; X,Y@N,Z@M changes it at frames N and M")
         ->default_str(options.target.text());
     app.add_option("--law", options.law, "The controller's law: " + CLI::detail::join(sfsm::law_names(), ", "))
+        ->check(one_of(sfsm::law_names()))
         ->capture_default_str();
     app.add_option_function<std::string>(
            "--state", [&](const std::string& text) { set_state(options, text); },
@@ -114,7 +118,6 @@ void add_stadium_options(CLI::App& app, StadiumOptions& options) {
 }
 
 void check(const StadiumOptions& options) {
-    sfsm::make_controller(options.law);  // throws for a law there isn't
     if (options.splat_size && options.state != sfsm::State::points)
         throw wrong_argument("--splat-px", "another state", "--state 2, whose splats it sizes");
     if (options.motion_distance && (!options.state || options.state == sfsm::State::original))
@@ -124,8 +127,15 @@ void check(const StadiumOptions& options) {
     if (!scene::is_preset(options.camera) && std::filesystem::path(options.camera).extension() != ".json")
         throw wrong_argument("--camera", "'" + options.camera + "'",
                              "still, close, medium, remote, roam or a FILE.json");
-    if ((options.trace == "-") + (options.png == "-") + (options.summary == "-") > 1)
-        throw std::invalid_argument("--trace, --png, --summary: found several on stdout, expected one");
+    if (options.png_directory == "-") throw wrong_argument("--png-dir", "'-'", "a directory");
+    if (options.characters.size() > most_characters)
+        throw wrong_argument("--character", std::to_string(options.characters.size()) + " files",
+                             "at most " + std::to_string(most_characters));
+    std::vector<Place> inputs;
+    for (const std::filesystem::path& file : options.characters) inputs.push_back({"--character", file.string()});
+    if (!scene::is_preset(options.camera)) inputs.push_back({"--camera", options.camera});
+    const Place outputs[] = {{"--trace", options.trace}, {"--png", options.png}, {"--summary", options.summary}};
+    check_places(inputs, outputs);
 }
 
 }  // namespace apps

@@ -1,6 +1,10 @@
 #include "apps/stadium_outputs.h"
 
+#include <unistd.h>
+
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <stdexcept>
 #include <system_error>
@@ -14,6 +18,21 @@ namespace {
 void put_png(std::ostream& out, const render::Image& image) {
     const std::vector<std::uint8_t> bytes = render::encode_png(image);
     out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+}
+
+[[noreturn]] void fail_directory(const std::string& path, const std::string& reason) {
+    throw std::runtime_error("cannot make directory " + path + ": " + reason);
+}
+
+// Finds before the run that the directory can't be made or written, and makes nothing yet.
+void check_directory(const std::string& path) {
+    std::error_code error;
+    std::filesystem::path nearest = std::filesystem::absolute(path, error);
+    while (!std::filesystem::exists(nearest, error) && nearest.has_relative_path()) nearest = nearest.parent_path();
+    if (!std::filesystem::is_directory(nearest, error))
+        fail_directory(path, "found " + nearest.string() + ", expected a directory");
+    if (::access(nearest.c_str(), W_OK | X_OK) != 0)
+        fail_directory(path, nearest.string() + ": " + std::strerror(errno));
 }
 
 void print_summary(const sfsm::Summary& summary, const std::map<std::string, std::string>& settings) {
@@ -44,11 +63,7 @@ StadiumOutputs::StadiumOutputs(const StadiumOptions& options) : options_(options
     if (!options.trace.empty()) trace_.emplace(options.trace);
     if (!options.png.empty()) png_.emplace(options.png);
     if (!options.summary.empty()) summary_.emplace(options.summary);
-    if (options.png_every > 0) {
-        std::error_code error;
-        std::filesystem::create_directories(options.png_directory, error);
-        if (error) throw std::runtime_error("cannot make directory " + options.png_directory + ": " + error.message());
-    }
+    if (options.png_every > 0) check_directory(options.png_directory);
 }
 
 bool StadiumOutputs::wants_picture(std::int64_t frame) const {
@@ -56,6 +71,9 @@ bool StadiumOutputs::wants_picture(std::int64_t frame) const {
 }
 
 void StadiumOutputs::write_picture(std::int64_t frame, const render::Image& image) const {
+    std::error_code error;
+    std::filesystem::create_directories(options_.png_directory, error);
+    if (error) fail_directory(options_.png_directory, error.message());
     char name[40];
     std::snprintf(name, sizeof name, "/frame%06lld.png", static_cast<long long>(frame));
     write_png(options_.png_directory + name, image);

@@ -17,10 +17,11 @@ void write_png(const std::string& path, const render::Image& image);
 
 class StadiumOutputs {
 public:
-    // Makes --png-dir if it is missing. Throws what OutputFile throws.
+    // Throws what OutputFile throws, also if --png-dir is no place for pictures.
     explicit StadiumOutputs(const StadiumOptions& options);
 
-    // If --png-every asks for this frame.
+    // If --png-every asks for this frame. The first picture makes --png-dir, so that a run that fails before leaves
+    // none.
     bool wants_picture(std::int64_t frame) const;
     void write_picture(std::int64_t frame, const render::Image& image) const;
 

@@ -149,6 +149,76 @@ TEST(StadiumProgram, SaysWhatIsWrongWithItsArguments) {
     expect_usage_error("--trace - --summary -", "stdout");
 }
 
+TEST(StadiumProgram, NamesTheLawsThereAre) {
+    expect_usage_error("--law foo", "--law: found 'foo', expected one of: ");
+}
+
+TEST(StadiumProgram, DoesNotTakeAnOptionForAValue) {
+    const tests::Directory directory;
+    const std::string picture = directory / "x.png";
+    expect_usage_error("--character --png " + picture, "--character: found the option --png");
+    expect_usage_error("--trace --png " + picture, "--trace: found the option --png");
+    expect_usage_error("--people --png " + picture, "--people: found");
+    EXPECT_TRUE(directory.names().empty());
+}
+
+TEST(StadiumProgram, RefusesMoreCharactersThanItCanHold) {
+    std::string arguments;
+    for (int i = 0; i < 65; ++i) arguments += "--character a.glb ";
+    expect_usage_error(arguments, "--character: found 65 files, expected at most 64");
+}
+
+TEST(StadiumProgram, RefusesToWriteTwoOutputsToOneFile) {
+    const tests::Directory directory;
+    const std::string file = directory / "a", link = directory / "link";
+    std::filesystem::create_symlink("a", link);
+    expect_usage_error("--trace " + file + " --png " + (directory / "./a"), "--trace and --png");
+    expect_usage_error("--trace " + file + " --summary " + link, "--trace and --summary");
+    EXPECT_EQ(directory.names(), std::vector<std::string>{"link"});
+}
+
+TEST(StadiumProgram, RefusesToOverwriteItsInputs) {
+    const tests::Directory directory;
+    const std::string camera = directory / "camera.json", character = directory / "a.glb";
+    std::ofstream(camera) << "keys";
+    std::ofstream(character) << "mesh";
+    expect_usage_error("--camera " + camera + " --summary " + camera, "--camera and --summary");
+    expect_usage_error("--character " + character + " --png " + (directory / "./a.glb"), "--character and --png");
+    EXPECT_EQ(tests::read_file(camera), "keys");
+    EXPECT_EQ(tests::read_file(character), "mesh");
+}
+
+TEST(StadiumProgram, FailsWhenWhatItPrintsIsLost) {
+    for (const std::string lost : {">/dev/full", ">&-"}) {
+        for (const std::string& arguments : {small + "--frames 1 ", small + "--frames 1 --trace - ",
+                                             std::string("--help "), std::string("--version ")}) {
+            const tests::Outcome outcome = tests::run("stadium", arguments + lost);
+            EXPECT_EQ(outcome.code, 1) << arguments << lost;
+            EXPECT_TRUE(tests::one_line(outcome.err)) << outcome.err;
+            EXPECT_NE(outcome.err.find("cannot write standard output"), std::string::npos) << outcome.err;
+        }
+    }
+}
+
+TEST(StadiumProgram, AClosedStdoutIsNotTakenForAFile) {
+    const tests::Directory directory;
+    const std::string trace = directory / "t.csv";
+    EXPECT_EQ(tests::run("stadium", small + "--frames 1 --trace " + trace + " >&-").code, 1);
+    EXPECT_EQ(tests::read_file(trace).find("frame time"), std::string::npos) << "the summary was to go to stdout";
+}
+
+TEST(StadiumProgram, MakesItsPictureDirectoryOnlyForAPicture) {
+    const tests::Directory directory;
+    const std::string pictures = " --png-every 1 --png-dir " + (directory / "new/pictures");
+    EXPECT_EQ(tests::run("stadium", small + "--character no_such.glb" + pictures).code, 1);
+    EXPECT_TRUE(directory.names().empty());
+    expect_usage_error("--png-every 1 --png-dir -", "--png-dir");
+    std::ofstream(directory / "file") << "";
+    const tests::Outcome below = tests::run("stadium", small + "--png-every 1 --png-dir " + (directory / "file/below"));
+    EXPECT_EQ(below.code, 1);
+    EXPECT_NE(below.err.find("expected a directory"), std::string::npos) << below.err;
+}
+
 TEST(StadiumProgram, SaysWhichFileItCannotReadOrWrite) {
     const tests::Directory directory;
     const std::string damaged = directory / "damaged.glb";

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <utility>
 
 #include "tests/pointsample/gltf_builder.h"
 
@@ -118,6 +119,29 @@ TEST_F(Program, RefusesBadFilesWithOne) {
     expect_refusal("square.glb --points 5 --out nowhere/out.ply --stats stats.json", 1);
     expect_refusal("square.glb --points 5 --out out.ply --pose wag@1", 1);
     expect_refusal("everything.glb --points 5 --out out.ply --pose 7@1", 1);
+}
+
+TEST_F(Program, RefusesToOverwriteItsInputOrItsOtherOutput) {
+    const std::string square = read(folder_ / "square.glb");
+    fs::create_symlink("square.glb", folder_ / "link.glb");
+    expect_refusal("square.glb --points 5 --out square.glb", 2);
+    expect_refusal("square.glb --points 5 --out ./square.glb", 2);
+    expect_refusal("square.glb --points 5 --out link.glb", 2);
+    expect_refusal("link.glb --points 5 --out out.ply --stats square.glb", 2);
+    expect_refusal("square.glb --points 5 --out out.ply --stats ./out.ply", 2);
+    EXPECT_EQ(read(folder_ / "square.glb"), square);
+}
+
+TEST_F(Program, SaysWhatItFoundInPlaceOfACharacter) {
+    const std::pair<std::string, std::string> cases[] = {{".", "a directory"},
+                                                         {"/dev/null", "a device"},
+                                                         {"/dev/zero", "a device"},
+                                                         {"\"\"", "an empty name"},
+                                                         {"missing.glb", "no such file"}};
+    for (const auto& [input, found] : cases) {
+        expect_refusal(input + " --points 5 --out out.ply", 1);
+        EXPECT_NE(read(folder_ / "stderr").find("found " + found), std::string::npos) << read(folder_ / "stderr");
+    }
 }
 
 TEST_F(Program, ExplainsItself) {

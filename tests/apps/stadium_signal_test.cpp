@@ -1,0 +1,60 @@
+// The stadium when it is told to stop. Pipes in place of files hold it where the test wants it: no clock decides.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/command.h"
+
+namespace {
+
+const std::string stadium = std::string(GRANDSTAND_BIN) + "/stadium";
+const char* endless = "10000000";  // frames
+
+class StadiumSignals : public testing::Test {
+protected:
+    std::vector<std::string> with(const std::vector<std::string>& more) const {
+        std::vector<std::string> command = {stadium, "--headless", "--people",  "200",     "--size",
+                                            "96x54", "--frames",   endless,     "--trace", trace_,
+                                            "--png", picture_,     "--summary", summary_};
+        command.insert(command.end(), more.begin(), more.end());
+        return command;
+    }
+
+    // A place that the program waits at until the test opens the other end.
+    std::string make_pipe(const std::string& name) const {
+        const std::string path = directory_ / name;
+        EXPECT_EQ(mkfifo(path.c_str(), 0600), 0);
+        return path;
+    }
+
+    tests::Directory directory_;
+    std::string trace_ = directory_ / "t.csv", picture_ = directory_ / "p.png", summary_ = directory_ / "s.json";
+};
+
+TEST_F(StadiumSignals, ARunThatIsInterruptedKeepsWhatItHas) {
+    const std::string first_picture = make_pipe("frame000000.png");
+    tests::Process process(with({"--png-every", endless, "--png-dir", directory_ / "."}));
+    {
+        std::ifstream drawn(first_picture);  // opens when the first frame is drawn
+        process.signal(SIGINT);
+        drawn.ignore(std::numeric_limits<std::streamsize>::max());
+    }
+    EXPECT_EQ(process.wait(), 0);
+    EXPECT_EQ(directory_.names(), (std::vector<std::string>{"frame000000.png", "p.png", "s.json", "t.csv"}));
+    EXPECT_TRUE(tests::read_file(trace_).ends_with("\n"));
+    EXPECT_TRUE(tests::read_file(picture_).starts_with("\x89PNG"));
+    EXPECT_TRUE(tests::read_file(summary_).ends_with("}\n"));
+}
+
+TEST_F(StadiumSignals, ASetUpThatIsKilledLeavesNothing) {
+    const std::string camera = make_pipe("camera.json");
+    tests::Process process(with({"--camera", camera}));
+    const std::ofstream waiting(camera);  // opens when the program reads its camera
+    EXPECT_EQ(directory_.names().size(), 4u) << "the outputs are open";
+    process.signal(SIGPIPE);  // ends it at once
+    EXPECT_EQ(process.wait(), 128 + SIGPIPE);
+    EXPECT_EQ(directory_.names(), std::vector<std::string>{"camera.json"});
+}
+
+}  // namespace
