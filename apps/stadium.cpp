@@ -145,6 +145,10 @@ private:
         row.range = survey.range;
         row.decision = options_.state ? fixed_decision(options_, *options_.state, row.range)
                                       : controller_->decide({row.target_ms, row.range, &survey.forecast});
+        if (!options_.trace.empty()) {
+            row.motion.assign(survey.forecast.motion.begin(), survey.forecast.motion.end());
+            row.splats.assign(survey.forecast.splats.begin(), survey.forecast.splats.end());
+        }
         const render::Selection& selection = selector_.select(row.decision, last_tick_);
         timer_.submit();
         renderer_.draw(view, selection, row.decision.splat_size);

@@ -21,6 +21,8 @@ struct SplatStep {
     std::int64_t triangles = 0;  // of people
     std::int64_t points = 0;
     double loss_px = 0;  // how far outlines are from where they should be [px]
+
+    bool operator==(const SplatStep&) const = default;
 };
 
 // The lists run from no loss (everybody moves; all triangles) to the most, and none of them is empty. Along each, work

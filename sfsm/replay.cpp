@@ -19,7 +19,8 @@ std::vector<Decision> replay_decisions(Controller& law, std::span<const TraceRow
             const TraceRow& past = rows[arrived];
             if (!std::isnan(past.frame_ms)) law.observe({past.frame, past.frame_ms, decisions[arrived], past.work});
         }
-        decisions.push_back(law.decide({row.target_ms, row.range}));
+        const Forecast forecast = row.forecast();
+        decisions.push_back(law.decide({row.target_ms, row.range, row.has_forecast() ? &forecast : nullptr}));
     }
     return decisions;
 }
@@ -29,8 +30,8 @@ int trace_delay(const Trace& trace) {
     if (found == trace.settings.end()) return 0;
     const std::optional<std::int64_t> delay = parse_integer(found->second);
     if (!delay || *delay < 0 || *delay > max_delay) {
-        throw std::runtime_error("found setting delay=" + found->second + ", expected a whole number in [0, " +
-                                 std::to_string(max_delay) + "]");
+        throw std::runtime_error((trace.name.empty() ? "" : trace.name + ": ") + "found setting delay=" +
+                                 found->second + ", expected a whole number in [0, " + std::to_string(max_delay) + "]");
     }
     return static_cast<int>(*delay);
 }

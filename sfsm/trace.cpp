@@ -1,5 +1,6 @@
 #include "sfsm/trace.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <istream>
@@ -34,6 +35,7 @@ constexpr std::array<std::string_view, 13> column_names = {
 constexpr std::string_view header_line =
     "frame,target_ms,frame_ms,cpu_ms,gpu_ms,state,motion_distance_m,splat_px,visible,triangles,points,motion_updates,"
     "range_m";
+constexpr std::string_view motion_name = "motion_steps", splat_name = "splat_steps";
 
 // Where in a file we are: all that an error needs to say.
 struct Place {
@@ -68,9 +70,9 @@ void read_setting(std::string_view line, std::map<std::string, std::string>& set
     if (equals != std::string_view::npos) settings[std::string(line.substr(0, equals))] = line.substr(equals + 1);
 }
 
-std::vector<std::string_view> split(std::string_view line) {
+std::vector<std::string_view> split(std::string_view line, char separator = ',') {
     std::vector<std::string_view> fields;
-    for (std::size_t comma; (comma = line.find(',')) != std::string_view::npos; line.remove_prefix(comma + 1)) {
+    for (std::size_t comma; (comma = line.find(separator)) != std::string_view::npos; line.remove_prefix(comma + 1)) {
         fields.push_back(line.substr(0, comma));
     }
     fields.push_back(line);
@@ -80,6 +82,7 @@ std::vector<std::string_view> split(std::string_view line) {
 // Where each of our columns stands in this file.
 struct Header {
     std::array<std::size_t, column_names.size()> position{};
+    std::optional<std::size_t> motion, splats;  // the forecast's
     std::size_t fields = 0;
 };
 
@@ -87,6 +90,10 @@ Header parse_header(std::string_view line, const Place& place) {
     const std::vector<std::string_view> found = split(line);
     Header header;
     header.fields = found.size();
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        if (found[i] == motion_name) header.motion = i;
+        if (found[i] == splat_name) header.splats = i;
+    }
     for (std::size_t column = 0; column < column_names.size(); ++column) {
         std::size_t times = 0;
         for (std::size_t i = 0; i < found.size(); ++i) {
@@ -128,6 +135,26 @@ struct Fields {
         return *value;
     }
 
+    // Steps of `numbers` numbers each; `add` takes them.
+    template <std::size_t numbers, typename Add>
+    void steps(std::optional<std::size_t> position, std::string_view name, Add add) const {
+        if (!position || fields[*position].empty()) return;
+        for (const std::string_view step : split(fields[*position], ' ')) {
+            const std::vector<std::string_view> texts = split(step, ':');
+            std::array<double, numbers> values{};
+            bool is_step = texts.size() == numbers;
+            for (std::size_t i = 0; is_step && i < numbers; ++i) {
+                const std::optional<double> value = parse_double(texts[i]);
+                is_step = value && *value >= 0;
+                if (is_step) values[i] = *value;
+            }
+            if (!is_step)
+                place.fail(std::string(name) + " has '" + std::string(step) + "', expected " + std::to_string(numbers) +
+                           " numbers from 0, parted by colons");
+            add(values);
+        }
+    }
+
     Decision decision() const {
         const std::string_view s = text(Column::state);
         if (s != "0" && s != "1" && s != "2") fail(Column::state, "0, 1 or 2");
@@ -139,6 +166,31 @@ struct Fields {
 };
 static_assert(max_splat_size == 32, "the message above says so");
 
+// Counts are whole numbers that a double holds.
+std::int64_t whole(double count) {
+    constexpr double most = 0x1p53;
+    return static_cast<std::int64_t>(std::min(count, most));
+}
+
+void append_steps(std::string& line, const TraceRow& row) {
+    const char* blank = "";
+    for (const MotionStep& step : row.motion) {
+        append_number(line += blank, step.distance);
+        append_number(line += ':', step.updates);
+        append_number(line += ':', step.loss_px);
+        blank = " ";
+    }
+    line += ',';
+    blank = "";
+    for (const SplatStep& step : row.splats) {
+        append_number(line += blank, step.size);
+        append_number(line += ':', step.triangles);
+        append_number(line += ':', step.points);
+        append_number(line += ':', step.loss_px);
+        blank = " ";
+    }
+}
+
 TraceRow parse_row(const Fields& fields) {
     TraceRow row;
     row.frame = fields.count(frame);
@@ -149,6 +201,12 @@ TraceRow parse_row(const Fields& fields) {
     row.decision = fields.decision();
     row.work = {fields.count(people), fields.count(triangles), fields.count(points), fields.count(updates)};
     row.range = fields.number(range);
+    fields.steps<3>(fields.header.motion, motion_name, [&](const std::array<double, 3>& v) {
+        row.motion.push_back({v[0], whole(v[1]), v[2]});
+    });
+    fields.steps<4>(fields.header.splats, splat_name, [&](const std::array<double, 4>& v) {
+        row.splats.push_back({v[0], whole(v[1]), whole(v[2]), v[3]});
+    });
     return row;
 }
 
@@ -156,7 +214,7 @@ TraceRow parse_row(const Fields& fields) {
 
 void write_trace_header(std::ostream& out, const std::map<std::string, std::string>& settings) {
     for (const auto& [key, value] : settings) out << "# " << one_line(key) << '=' << one_line(value) << '\n';
-    out << header_line << '\n';
+    out << header_line << ',' << motion_name << ',' << splat_name << '\n';
 }
 
 void write_trace_row(std::ostream& out, const TraceRow& row) {
@@ -170,11 +228,13 @@ void write_trace_row(std::ostream& out, const TraceRow& row) {
         append_number(line += ',', count);
     }
     append_number(line += ',', row.range);
+    append_steps(line += ',', row);
     out << (line += '\n');
 }
 
 Trace read_trace(std::istream& in, const std::string& name) {
     Trace trace;
+    trace.name = name;
     Place place{name};
     std::string line;
     while (next_line(in, line, place) && line.starts_with('#')) read_setting(line, trace.settings);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sfsm/decision.h"
+#include "sfsm/forecast.h"
 
 namespace sfsm {
 
@@ -20,20 +21,28 @@ struct TraceRow {
     Decision decision;    // the one this frame was drawn with
     double range = 0;     // L [m] given to the controller before this frame
     Work work;
+
+    // The forecast given to the controller before this frame; both empty if there was none.
+    std::vector<MotionStep> motion;
+    std::vector<SplatStep> splats;
+    bool has_forecast() const { return !motion.empty() && !splats.empty(); }
+    Forecast forecast() const { return {work.people, motion, splats}; }  // as long as the row lives
 };
 
 struct Trace {
     std::map<std::string, std::string> settings;
     std::vector<TraceRow> rows;
+    std::string name = {};  // of the file it was read from, for messages
 };
 
-// The header has at least
+// A forecast's steps are in the last two columns, steps parted by blanks and their numbers by colons, in the order of
+// their fields; readers may do without. The header has at least
 // frame,target_ms,frame_ms,cpu_ms,gpu_ms,state,motion_distance_m,splat_px,visible,triangles,points,motion_updates.
 void write_trace_header(std::ostream& out, const std::map<std::string, std::string>& settings);
 void write_trace_row(std::ostream& out, const TraceRow& row);
 
 // Columns are found by name, unknown ones are skipped. Throws std::runtime_error naming `name`, the line and what was
-// expected there.
+// expected there; the trace keeps `name`.
 Trace read_trace(std::istream& in, const std::string& name);
 
 }  // namespace sfsm

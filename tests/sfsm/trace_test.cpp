@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <locale>
 #include <random>
@@ -50,6 +51,12 @@ TraceRow any_row(std::mt19937_64& random, std::int64_t frame) {
     for (std::int64_t* count : {&row.work.people, &row.work.triangles, &row.work.points, &row.work.motion_updates}) {
         *count = static_cast<std::int64_t>(random() >> (1 + random() % 63));
     }
+    for (std::uint64_t steps = random() % 3; steps > 0; --steps) {
+        row.motion.push_back(
+            {uniform(random, 0, 1e3), static_cast<std::int64_t>(random() >> 12), uniform(random, 0, 9)});
+        row.splats.push_back(
+            {uniform(random, 0, 32), static_cast<std::int64_t>(random() >> 40), 7, uniform(random, 0, 9)});
+    }
     return row;
 }
 
@@ -68,6 +75,8 @@ TEST(Trace, EveryRowReadsBackToTheSameBits) {
         EXPECT_EQ(a.frame, b.frame);
         EXPECT_EQ(a.decision, b.decision);
         EXPECT_EQ(a.work, b.work);
+        EXPECT_EQ(a.motion, b.motion);
+        EXPECT_EQ(a.splats, b.splats);
         EXPECT_TRUE(same_bits(a.target_ms, b.target_ms) && same_bits(a.frame_ms, b.frame_ms) &&
                     same_bits(a.cpu_ms, b.cpu_ms) && same_bits(a.gpu_ms, b.gpu_ms) && same_bits(a.range, b.range))
             << "row " << i;
@@ -101,7 +110,8 @@ TEST(Trace, TheLocaleOfAStreamChangesNothing) {
 
 TEST(Trace, TheHeaderBeginsWithTheContract) {
     const std::string text = write({});
-    EXPECT_EQ(text, header);
+    const std::string contract(header, std::strlen(header) - 1);
+    EXPECT_EQ(text, contract + ",motion_steps,splat_steps\n");
 }
 
 TEST(Trace, EmptyTimesAreNotMeasuredAndInfiniteDistanceIsInf) {
@@ -110,7 +120,22 @@ TEST(Trace, EmptyTimesAreNotMeasuredAndInfiniteDistanceIsInf) {
     EXPECT_TRUE(std::isnan(trace.rows[0].frame_ms) && std::isnan(trace.rows[0].cpu_ms) &&
                 std::isnan(trace.rows[0].gpu_ms));
     EXPECT_EQ(trace.rows[0].decision, Decision{});
-    EXPECT_NE(write(trace).find("7,16.6,nan,nan,nan,0,inf,0,1,2,3,4,200\n"), std::string::npos);
+    EXPECT_NE(write(trace).find("7,16.6,nan,nan,nan,0,inf,0,1,2,3,4,200,,\n"), std::string::npos);
+}
+
+TEST(Trace, DamagedForecastIsNamedByItsLine) {
+    const std::string wide = std::string(header, std::strlen(header) - 1) + ",motion_steps,splat_steps\n";
+    const std::string row = std::string(good_row, std::strlen(good_row) - 1);
+    EXPECT_TRUE(read(wide + row + ",inf:5:0 3:2:1.5,0:900:0:0\n").rows.at(0).has_forecast());
+    for (const char* steps :
+         {",1:2,0:1:1:0", ",1:x:3,0:1:1:0", ",1:2:3  4:5:6,0:1:1:0", ",1:2:3,0:1:1", ",1:-2:3,0:1:1:0"}) {
+        try {
+            read(wide + row + steps + "\n");
+            ADD_FAILURE() << steps;
+        } catch (const std::runtime_error& error) {
+            EXPECT_NE(std::string(error.what()).find(":2: "), std::string::npos) << error.what();
+        }
+    }
 }
 
 TEST(Trace, ColumnsAreFoundByNameAndUnknownOnesSkipped) {
