@@ -10,10 +10,16 @@ namespace {
 
 constexpr double first_noise = 0.05;                     // relative
 constexpr double least_noise = 0.001, most_noise = 0.3;  // relative
+constexpr double slowest_noise = 0.015;                  // share that its estimate moves by per sample
 constexpr double huber = 3;                              // standard deviations
-constexpr double gain_memory = 60;                       // [samples] that the gain is averaged over
-constexpr double price_walk = 0.0003;                    // 1 sigma per sample, in units of the first belief
-constexpr double most_price = 1e4, least_fixed = 1e-4;   // in units of the first guess
+constexpr double small_step = 0.05;                      // relative
+constexpr int most_turns = 6;
+constexpr double gain_memory = 60;                      // [samples] that the gain is averaged over
+constexpr double price_walk = 0.0003;                   // 1 sigma per sample, in units of the first belief
+constexpr double most_price = 1e4, least_fixed = 1e-4;  // in units of the first guess
+constexpr double likeness = 2;                          // standard deviations within which a gain is one known before
+constexpr double most_recall = 0.1;                     // and relative
+constexpr double recall_worth = 16;                     // frames of the new level that the old one is worth
 constexpr double most_log_gain = 60;
 constexpr double least_log_ms = -40, most_log_ms = 40;
 // The median of |a - b| of two normal numbers of spread 1.
@@ -58,8 +64,7 @@ void CostModel::observe(const Amounts& amounts, double ms) {
     recent_[static_cast<std::size_t>(samples_ % ShiftDetector::window)] = seen;
     ++samples_;
     forget();
-    Vector gradient;
-    learn_noise(seen.log_ms - log_time(amounts, gradient));
+    learn_noise(seen);
     const int shown = detector_.add(correct(seen));
     if (shown > 0) take_shift(shown);
 }
@@ -72,23 +77,39 @@ double CostModel::log_time(const Amounts& amounts, Vector& gradient) const {
     return log_scale_ + state_[0] + std::log(sum);
 }
 
-// One step of the filter. Returns the residual in units of its standard deviation.
+// One step of the filter. Returns the residual in units of its standard deviation. Time is a product and a sum of what
+// is estimated, so large steps look for the point that they should have been linear at.
 double CostModel::correct(const Seen& seen) {
-    Vector gradient;
-    const double residual = seen.log_ms - log_time(seen.amounts, gradient);
-    Vector covariance;
-    for (int i = 0; i < states_; ++i) covariance[i] = dot(spread_[i], gradient, states_);
-    const double variance = dot(covariance, gradient, states_) + noise_ * noise_;
-    const double standardised = residual / std::sqrt(variance);
-    const double weight = std::abs(standardised) > huber ? huber / std::abs(standardised) : 1;
-    for (int i = 0; i < states_; ++i) {
-        const double gain = weight * covariance[i] / variance;
-        state_[i] += gain * residual;
-        for (int j = 0; j < states_; ++j) spread_[i][j] -= gain * covariance[j];
+    const Vector before = state_;
+    Vector gradient, covariance;
+    double standardised = 0, weight = 1, variance = 1;
+    for (int turn = 0; turn < most_turns; ++turn) {
+        const double log_ms = log_time(seen.amounts, gradient);
+        double expected = log_ms;  // of the state before, on the tangent here
+        for (int i = 0; i < states_; ++i) {
+            expected += gradient[i] * (before[i] - state_[i]);
+            covariance[i] = dot(spread_[i], gradient, states_);
+        }
+        variance = dot(covariance, gradient, states_) + noise_ * noise_;
+        const double residual = seen.log_ms - expected;
+        if (turn == 0) {
+            standardised = residual / std::sqrt(variance);
+            weight = std::abs(standardised) > huber ? huber / std::abs(standardised) : 1;
+        }
+        for (int i = 0; i < states_; ++i) state_[i] = before[i] + weight * residual * covariance[i] / variance;
+        limit();
+        if (std::abs(residual) < small_step || weight < 1) break;
     }
-    state_[0] = std::clamp(state_[0], -most_log_gain, most_log_gain);
-    for (int i = 1; i < states_; ++i) state_[i] = std::clamp(state_[i], i == 1 ? least_fixed : 0, most_price);
+    for (int i = 0; i < states_; ++i) {
+        for (int j = 0; j < states_; ++j) spread_[i][j] -= weight * covariance[i] / variance * covariance[j];
+    }
     return standardised;
+}
+
+void CostModel::limit() {
+    state_[0] = std::clamp(state_[0], -most_log_gain, most_log_gain);
+    state_[1] = std::clamp(state_[1], least_fixed, most_price);
+    for (int i = 2; i < states_; ++i) state_[i] = std::clamp(state_[i], 0.0, most_price);
 }
 
 void CostModel::forget() {
@@ -100,12 +121,17 @@ void CostModel::forget() {
     }
 }
 
-// A step towards the median of the differences between neighbours, whatever their size: outliers don't count.
-void CostModel::learn_noise(double residual) {
+// A step towards the median of the differences between neighbours, whatever their size: outliers don't count, and
+// neither do frames whose time was not known well.
+void CostModel::learn_noise(const Seen& seen) {
+    const Prediction prediction = predict(seen.amounts);
+    if (prediction.uncertainty > noise_) return;
+    const double residual = seen.log_ms - prediction.log_ms;
     const double difference = std::abs(residual - last_residual_);
     last_residual_ = residual;
-    if (samples_ < 3) return;
-    const double step = 1 + std::max(0.015, 1.0 / static_cast<double>(samples_));
+    if (residuals_++ == 0) return;
+    const double step = 1 + std::max(slowest_noise, 1.0 / residuals_);
+    residuals_ = std::min(residuals_, 1000);
     noise_ = difference > median_difference * noise_ ? noise_ * step : noise_ / step;
     noise_ = std::clamp(noise_, least_noise, most_noise);
 }
@@ -121,9 +147,27 @@ void CostModel::take_shift(int count) {
     double least = most_log_ms;
     for (int i = 1; i <= count; ++i)
         least = std::min(least, std::abs(newest(i).log_ms - log_time(newest(i).amounts, gradient)));
+    const double log_gain = state_[0], variance = spread_[0][0];
     for (int i = 0; i < states_; ++i) spread_[0][i] = spread_[i][0] = 0;
     spread_[0][0] = least * least + noise_ * noise_;
     for (int i = count; i >= 1; --i) correct(newest(i));
+    if (left_variance_ >= 0) recall(left_log_gain_, left_variance_);
+    left_log_gain_ = log_gain;
+    left_variance_ = variance;
+}
+
+// Loads come back to what they were: a gain like the one before the last shift is taken for that one.
+void CostModel::recall(double log_gain, double variance) {
+    const double likely = likeness * std::sqrt(spread_[0][0] + variance);
+    if (std::abs(state_[0] - log_gain) > std::min(likely, most_recall)) return;
+    const double residual = log_gain - state_[0];
+    const double total = spread_[0][0] + variance + noise_ * noise_ / recall_worth;
+    Vector covariance = spread_[0];
+    for (int i = 0; i < states_; ++i) {
+        state_[i] += covariance[i] / total * residual;
+        for (int j = 0; j < states_; ++j) spread_[i][j] -= covariance[i] / total * covariance[j];
+    }
+    limit();
 }
 
 Prediction CostModel::predict(const Amounts& amounts) const {

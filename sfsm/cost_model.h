@@ -68,9 +68,11 @@ private:
     void start(const Amounts& amounts, double ms);
     double log_time(const Amounts& amounts, Vector& gradient) const;
     double correct(const Seen& seen);
+    void limit();
     void forget();
-    void learn_noise(double residual);
+    void learn_noise(const Seen& seen);
     void take_shift(int count);
+    void recall(double log_gain, double variance);
 
     PriceBelief belief_;
     int states_;
@@ -79,8 +81,10 @@ private:
     double log_scale_ = 0;                      // ln [ms] per unit of amount at price 1
     double noise_ = 0;
     double last_residual_ = 0;
+    int residuals_ = 0;  // that told of the noise so far; counts to a few hundred
     std::int64_t samples_ = 0;
     std::int64_t shifts_ = 0;
+    double left_log_gain_ = 0, left_variance_ = -1;  // of the level before the last shift; < 0: there was none
     ShiftDetector detector_;
     std::array<Seen, ShiftDetector::window> recent_{};  // a ring
 };

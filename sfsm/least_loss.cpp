@@ -23,16 +23,20 @@ double power_between(double a, double b, double share) {
     return a > 0 && b > 0 ? a * std::pow(b / a, share) : std::lerp(a, b, share);
 }
 
+double distance_of(const MotionStep& step, double range) {
+    return std::min(range, step.distance);
+}
+
 // Between the steps `at - 1` and `at`; share in [0, 1], 1 is the latter.
 struct Place {
     std::size_t at = 0;
     double share = 1;
 };
 
-void take_motion(Plan& plan, const Forecast& forecast, const Place& place) {
+void take_motion(Plan& plan, const Forecast& forecast, double range, const Place& place) {
     const MotionStep& b = forecast.motion[place.at];
     const MotionStep& a = place.share < 1 ? forecast.motion[place.at - 1] : b;
-    plan.distance = place.share < 1 ? std::lerp(a.distance, b.distance, place.share) : b.distance;
+    plan.distance = std::lerp(distance_of(a, range), distance_of(b, range), place.share);
     plan.motion_updates = std::lerp(count(a.updates), count(b.updates), place.share);
     plan.loss_px += std::lerp(a.loss_px, b.loss_px, place.share);
 }
@@ -46,9 +50,9 @@ void take_splats(Plan& plan, const Forecast& forecast, const Place& place) {
     plan.loss_px += std::lerp(a.loss_px, b.loss_px, place.share);
 }
 
-Plan plan_of(const Forecast& forecast, const Place& motion, const Place& splats) {
+Plan plan_of(const Forecast& forecast, double range, const Place& motion, const Place& splats) {
     Plan plan;
-    take_motion(plan, forecast, motion);
+    take_motion(plan, forecast, range, motion);
     take_splats(plan, forecast, splats);
     return plan;
 }
@@ -77,23 +81,29 @@ double loss_at(std::span<const Step> steps, const Place& place) {
 
 }  // namespace
 
-Plan plan_at(const Forecast& forecast, double distance, double size) {
+Plan plan_at(const Forecast& forecast, double range, double distance, double size) {
     const auto& motion = forecast.motion;
     const auto& splats = forecast.splats;
     std::size_t m = 0, s = 0;
-    while (m + 1 < motion.size() && motion[m + 1].distance >= distance) ++m;
-    while (s + 1 < splats.size() && splats[s + 1].size <= size) ++s;
+    while (m + 1 < motion.size() && distance_of(motion[m], range) > distance) ++m;
+    while (s + 1 < splats.size() && splats[s].size < size) ++s;
     Place motion_place{m, 1}, splat_place{s, 1};
-    if (m + 1 < motion.size() && std::isfinite(motion[m].distance) && motion[m].distance > distance) {
-        const double span = motion[m].distance - motion[m + 1].distance;
-        motion_place = {m + 1, (motion[m].distance - distance) / span};
+    if (m > 0 && distance_of(motion[m], range) < distance) {
+        const double before = distance_of(motion[m - 1], range);
+        motion_place.share = (before - distance) / (before - distance_of(motion[m], range));
     }
-    if (s + 1 < splats.size() && splats[s].size > 0 && splats[s].size < size) {
-        splat_place = {s + 1, std::log(size / splats[s].size) / std::log(splats[s + 1].size / splats[s].size)};
-    } else if (s == 0 && size > 0 && splats.size() > 1) {
-        splat_place = {1, 1};
+    if (s > 0 && splats[s].size > size && splats[s - 1].size > 0) {
+        splat_place.share = std::log(size / splats[s - 1].size) / std::log(splats[s].size / splats[s - 1].size);
     }
-    return plan_of(forecast, motion_place, splat_place);
+    return plan_of(forecast, range, motion_place, splat_place);
+}
+
+Plan slower_plan(const Forecast& forecast, double range, const Plan& plan, double share) {
+    for (const MotionStep& step : forecast.motion) {
+        if (count(step.updates) <= share * plan.motion_updates)
+            return plan_at(forecast, range, distance_of(step, range), plan.size);
+    }
+    return plan_at(forecast, range, distance_of(forecast.motion.back(), range), plan.size);
 }
 
 double plan_ms(const Plan& plan, const WorkPrices& prices) {
@@ -101,18 +111,14 @@ double plan_ms(const Plan& plan, const WorkPrices& prices) {
            prices.motion_update * plan.motion_updates;
 }
 
-Plan finest_plan(const Forecast& forecast) {
-    return plan_of(forecast, {0, 1}, {0, 1});
+Plan cheapest_plan(const Forecast& forecast, double range) {
+    return plan_of(forecast, range, {forecast.motion.size() - 1, 1}, {forecast.splats.size() - 1, 1});
 }
 
-Plan cheapest_plan(const Forecast& forecast) {
-    return plan_of(forecast, {forecast.motion.size() - 1, 1}, {forecast.splats.size() - 1, 1});
-}
-
-Plan least_loss_plan(const Forecast& forecast, const WorkPrices& prices, double budget_ms) {
+Plan least_loss_plan(const Forecast& forecast, double range, const WorkPrices& prices, double budget_ms) {
     const auto motion_cost = [&](const MotionStep& step) { return motion_ms(step, prices); };
     const auto splat_cost = [&](const SplatStep& step) { return splat_ms(step, prices); };
-    const auto has_distance = [](const MotionStep& step) { return std::isfinite(step.distance); };
+    const auto has_distance = [&](const MotionStep& step) { return std::isfinite(distance_of(step, range)); };
     const auto has_size = [](const SplatStep& step) { return step.size > 0; };
     Place best_motion{forecast.motion.size() - 1, 1}, best_splats{forecast.splats.size() - 1, 1};
     double least = std::numeric_limits<double>::infinity();
@@ -130,7 +136,7 @@ Plan least_loss_plan(const Forecast& forecast, const WorkPrices& prices, double 
     for (std::size_t s = 0; s < forecast.splats.size(); ++s)
         consider(fitting_place(forecast.motion, rest - splat_cost(forecast.splats[s]), motion_cost, has_distance),
                  {s, 1});
-    return plan_of(forecast, best_motion, best_splats);
+    return plan_of(forecast, range, best_motion, best_splats);
 }
 
 }  // namespace sfsm

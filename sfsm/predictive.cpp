@@ -14,8 +14,10 @@ void PredictiveOptions::validate() const {
     const auto require = [](bool holds, const char* rule) {
         if (!holds) throw std::invalid_argument(std::string("predictive law: expected ") + rule);
     };
-    require(headroom >= 0 && headroom <= 0.5, "headroom in [0, 0.5]");
+    require(headroom >= 0 && headroom <= 3, "headroom in [0, 3]");
+    require(most_headroom >= 0 && most_headroom <= 0.5, "most_headroom in [0, 0.5]");
     require(caution >= 0 && caution <= 3, "caution in [0, 3]");
+    require(probes >= 0, "probes from 0");
     require(band >= 0 && band <= 0.2, "band in [0, 0.2]");
     require(band_sigmas >= 0 && band_sigmas <= 6, "band_sigmas in [0, 6]");
     require(worthwhile >= 0 && worthwhile <= 1, "worthwhile in [0, 1]");
@@ -33,6 +35,15 @@ constexpr PriceBelief work_belief{5, {1, 1, 0.6, 0.8, 2}, 0};
 constexpr int detail_steps = 8;
 constexpr double axis_frame = 0.3;
 constexpr PriceBelief axis_belief{1 + detail_steps, {1, 1, 1, 1, 1, 1, 1, 1, 1}, 0.7};
+
+constexpr double doubtful = 0.05;      // uncertainty of the way down that is worth a probe
+constexpr double probe_share = 0.5;    // of the motion that such a frame has
+constexpr double coarser_probe = 4;    // times the finest splat
+constexpr int first_probe = 12;        // times before it: the noise of a frame has to be known
+constexpr int quiet_before_probe = 8;  // decisions without change
+constexpr int longest_wait = 24;       // decisions until a probe's time is given up
+
+constexpr double much_over = 1.03;  // t at which a rise has failed
 
 constexpr double most_count = 1e15;  // of any work
 
@@ -79,12 +90,16 @@ void PredictiveLaw::observe(const FrameSample& sample) {
             frame_amount_ = frame_share * (all.of[1] + all.of[2] + all.of[3] + all.of[4]);
         }
         work_.observe(amounts_of(people, triangles, points, updates), sample.ms);
+        if (sample.decision == probe_.decision) probe_.age = 0;
     }
     if (!has_forecast_ && range_ > 0) axis_.observe(axis_amounts(drawn_detail(sample.decision)), sample.ms);
 }
 
 Decision PredictiveLaw::decide(const FrameRequest& request) {
-    if (is_usable(request.target_ms)) status_.target_ms = target_ms_ = request.target_ms;
+    if (is_usable(request.target_ms)) {
+        if (request.target_ms != target_ms_) ceiling_.forget();
+        status_.target_ms = target_ms_ = request.target_ms;
+    }
     if (is_usable(request.range)) range_ = request.range;
     has_forecast_ = request.forecast && !request.forecast->motion.empty() && !request.forecast->splats.empty();
     if (target_ms_ > 0 && range_ > 0) {
@@ -97,16 +112,16 @@ Decision PredictiveLaw::decide(const FrameRequest& request) {
     return status_.decision;
 }
 
-// A share below the target, and lower for what is not known. Where even the coarsest is too slow, that one; but the
-// finest, if there is next to nothing between them.
-double PredictiveLaw::aim(double least_ms, double finest_ms, double uncertainty) const {
-    const double aim_ms = target_ms_ * (1 - options_.headroom);
-    if (least_ms > aim_ms) return finest_ms < (1 + options_.worthwhile) * least_ms ? finest_ms : least_ms;
+// Below the target for the noise, and lower for what is not known. Where even the coarsest is too slow, next to that.
+double PredictiveLaw::aim(const CostModel& model, double least_ms, double uncertainty) const {
+    const double headroom = std::min(options_.headroom * model.noise(), options_.most_headroom);
+    const double aim_ms = target_ms_ * (1 - headroom);
+    if (least_ms > aim_ms) return least_ms * (1 + options_.worthwhile);
     return std::max(aim_ms * std::exp(-options_.caution * uncertainty), least_ms);
 }
 
 const char* PredictiveLaw::reason_to_move(const Prediction& kept, double aim_ms, double least_ms) const {
-    if (least_ms > target_ms_) return aim_ms > least_ms ? "out of reach, and detail costs nothing" : "out of reach";
+    if (least_ms > target_ms_) return "out of reach: as fast as detail makes it";
     return kept.log_ms > std::log(aim_ms) ? "would be slow: coarser" : "has time to spare: finer";
 }
 
@@ -146,19 +161,30 @@ double PredictiveLaw::drawn_detail(const Decision& decision) const {
     return std::isfinite(detail) ? detail : 1;
 }
 
-void PredictiveLaw::decide_on_axis() {
-    if (axis_.is_ready()) {
-        const double least_ms = std::exp(axis_.predict(axis_amounts(0)).log_ms);
-        const double finest_ms = std::exp(axis_.predict(axis_amounts(1)).log_ms);
-        const Prediction now = axis_.predict(axis_amounts(detail_));
-        const double aim_ms = aim(least_ms, finest_ms, 0);
-        if (!is_kept(now, aim_ms)) {
-            const Prediction there = axis_.predict(axis_amounts(detail_for(aim_ms)));
-            detail_ = detail_for(aim(least_ms, finest_ms, there.uncertainty));
-            status_.reason = reason_to_move(now, aim_ms, least_ms);
+double PredictiveLaw::axis_ms(double detail) const {
+    return std::exp(axis_.predict(axis_amounts(detail)).log_ms);
+}
+
+void PredictiveLaw::turn_axis() {
+    const double least_ms = axis_ms(0);
+    const Prediction now = axis_.predict(axis_amounts(detail_));
+    const double aim_ms = aim(axis_, least_ms, 0);
+    ceiling_.step(axis_ms(ceiling_.floor()));
+    if (!is_kept(now, aim_ms)) {
+        const Prediction there = axis_.predict(axis_amounts(detail_for(aim_ms)));
+        const double wanted = detail_for(aim(axis_, least_ms, there.uncertainty));
+        if (wanted > detail_) {
+            detail_ = ceiling_.rise(detail_, wanted, std::exp(now.log_ms));
+        } else if (wanted < detail_) {
+            detail_ = std::exp(now.log_ms) > much_over * target_ms_ ? ceiling_.fall(detail_, wanted) : wanted;
         }
-        believe(axis_.predict(axis_amounts(detail_)), axis_);
+        status_.reason = reason_to_move(now, aim_ms, least_ms);
     }
+    believe(axis_.predict(axis_amounts(detail_)), axis_);
+}
+
+void PredictiveLaw::decide_on_axis() {
+    if (axis_.is_ready()) turn_axis();
     const Decision decision = decision_at(detail_, range_);
     if (drawn_count_ == 0 || decision != status_.decision) {
         std::rotate(drawn_.begin(), drawn_.end() - 1, drawn_.end());
@@ -187,31 +213,77 @@ WorkPrices PredictiveLaw::prices(const Forecast& forecast) const {
             price(Price::point), price(Price::motion_update)};
 }
 
+Decision PredictiveLaw::decision_of(const Plan& plan) const {
+    const bool is_all_moving = !(plan.distance < range_);
+    if (!(plan.size > 0)) return is_all_moving ? Decision{} : Decision{State::slowed, plan.distance, 0};
+    return {State::points, is_all_moving ? range_ : plan.distance, std::min(plan.size, max_splat_size)};
+}
+
+Plan PredictiveLaw::plan_of(const Forecast& forecast, const Decision& decision) const {
+    const double distance = decision.state == State::original ? range_ : std::min(decision.motion_distance, range_);
+    return plan_at(forecast, range_, distance, decision.splat_size);
+}
+
 void PredictiveLaw::decide_from(const Forecast& forecast) {
-    if (!work_.is_ready()) return;
+    if (work_.is_ready()) {
+        choose(forecast);
+        status_.decision = kept_;
+        probe(forecast);
+    }
+}
+
+void PredictiveLaw::choose(const Forecast& forecast) {
     believe_prices();
     const WorkPrices prices = this->prices(forecast);
-    const double least_ms = plan_ms(cheapest_plan(forecast), prices);
-    const Decision& last = status_.decision;
-    Plan plan = plan_at(forecast,
-                        last.state == State::original || last.motion_distance >= range_
-                            ? std::numeric_limits<double>::infinity()
-                            : last.motion_distance,
-                        last.splat_size);
-    const double finest_ms = plan_ms(finest_plan(forecast), prices);
-    const double aim_ms = aim(least_ms, finest_ms, 0);
-    Plan best = least_loss_plan(forecast, prices, aim_ms);
-    const Prediction kept = predicted(forecast, plan);
-    if (!is_kept(kept, aim_ms) || best.loss_px < plan.loss_px * (1 - options_.better)) {
-        plan = least_loss_plan(forecast, prices, aim(least_ms, finest_ms, predicted(forecast, best).uncertainty));
-        status_.reason = reason_to_move(kept, aim_ms, least_ms);
-        Decision& decision = status_.decision;
-        decision.splat_size = std::clamp(plan.size, 0.0, max_splat_size);
-        decision.motion_distance = plan.distance > 0 ? std::min(plan.distance, range_) : range_;
-        decision.state = plan.size > 0 ? State::points : plan.distance < range_ ? State::slowed : State::original;
-        if (decision.state == State::original) decision = {};
+    const double least_ms = plan_ms(cheapest_plan(forecast, range_), prices);
+    const double aim_ms = aim(work_, least_ms, 0);
+    const Plan now = plan_of(forecast, kept_);
+    const Plan best = least_loss_plan(forecast, range_, prices, aim_ms);
+    const Prediction prediction = predicted(forecast, now);
+    believe(prediction, work_);
+    if (is_kept(prediction, aim_ms) && !(best.loss_px < now.loss_px * (1 - options_.better))) return;
+    const double sure_ms = aim(work_, least_ms, predicted(forecast, best).uncertainty);
+    const Plan plan = least_loss_plan(forecast, range_, prices, sure_ms);
+    const Decision chosen = decision_of(plan);
+    if (chosen == kept_) return;
+    kept_ = chosen;
+    since_choice_ = 0;
+    status_.reason = reason_to_move(prediction, aim_ms, least_ms);
+    believe(predicted(forecast, plan), work_);
+}
+
+bool PredictiveLaw::is_doubtful(const Forecast& forecast, const Plan& plan) const {
+    return predicted(forecast, plan).uncertainty > doubtful;
+}
+
+// One frame with half the motion, or with the finest points: what the way down would cost, before it is needed. A
+// probe waits until the one before has been answered.
+void PredictiveLaw::probe(const Forecast& forecast) {
+    if (probe_.age > 0 && ++probe_.age < longest_wait) return;
+    probe_.age = 0;
+    if (work_.samples() < first_probe || ++since_choice_ < quiet_before_probe || !(status_.predicted_ms <= target_ms_))
+        return;
+    const Plan now = plan_of(forecast, kept_);
+    const Plan cheapest = cheapest_plan(forecast, range_);
+    Plan plan = now;
+    if (probe_.motion < options_.probes &&
+        is_doubtful(forecast, plan_at(forecast, range_, cheapest.distance, now.size))) {
+        plan = slower_plan(forecast, range_, now, probe_share);
+        probe_.motion += 1;
+        status_.reason = "learning what motion costs";
+    } else if (probe_.splats < options_.probes && now.size == 0 &&
+               is_doubtful(forecast, plan_at(forecast, range_, now.distance, cheapest.size))) {
+        // The finest, then coarser ones: two sizes tell points from what every frame has.
+        const double size = forecast.splats.size() > 1 ? forecast.splats[1].size : 0;
+        plan = plan_at(forecast, range_, now.distance, probe_.splats == 0 ? size : coarser_probe * size);
+        probe_.splats += 1;
+        status_.reason = "learning what points cost";
+    } else {
+        return;
     }
     believe(predicted(forecast, plan), work_);
+    status_.decision = probe_.decision = decision_of(plan);
+    probe_.age = 1;
 }
 
 }  // namespace sfsm
