@@ -13,6 +13,8 @@ struct MotionStep {
     double distance = std::numeric_limits<double>::infinity();  // D [m]
     std::int64_t updates = 0;                                   // people that would move
     double loss_px = 0;                                         // how far surfaces are from where they should be [px]
+
+    bool operator==(const MotionStep&) const = default;
 };
 
 // One splat size S, and what it would make of the shapes.
