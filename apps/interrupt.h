@@ -11,7 +11,7 @@ namespace apps {
 void watch_signals();
 
 // From now on the first SIGINT, SIGTERM or SIGHUP only makes interrupted() true: the run is to end in good order. The
-// next one ends the program. Call after watch_signals().
+// next one ends the program.
 void finish_on_signal();
 bool interrupted();
 

@@ -154,6 +154,17 @@ TEST_F(ReplayProgram, WillNotVerifyWhatWasForcedOrNotSaid) {
     }
 }
 
+TEST_F(ReplayProgram, NamesTheTraceWhoseDelayIsNone) {
+    Trace trace = recorded();
+    trace.settings["delay"] = "99";
+    const std::string saved = save(trace);
+    for (const char* option : {" --verify", ""}) {
+        const Outcome outcome = replay(saved + option);
+        EXPECT_EQ(outcome.code, 1);
+        EXPECT_NE(outcome.text.find(saved + ": found setting delay=99"), std::string::npos) << outcome.text;
+    }
+}
+
 TEST_F(ReplayProgram, WritesATraceThatVerifiesAgain) {
     const std::string trace = save(recorded());
     ASSERT_EQ(replay(trace + " --target-ms 200,50@40 --csv " + path("out.csv")).code, 0);
