@@ -1,0 +1,16 @@
+// libFuzzer's entry: the same bytes into every law and rival.
+#include <cstdio>
+#include <cstdlib>
+
+#include "tests/fuzz/calls.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    for (const std::string_view name : sfsm::fuzz::all_names()) {
+        const auto law = sfsm::fuzz::make_any(name);
+        const std::string broken = sfsm::fuzz::call(*law, {data, size}, sfsm::fuzz::Forecasts::hostile).broken;
+        if (broken.empty()) continue;
+        std::fprintf(stderr, "%.*s: %s\n", static_cast<int>(name.size()), name.data(), broken.c_str());
+        std::abort();
+    }
+    return 0;
+}

@@ -1,0 +1,164 @@
+// Each rival's first response, computed by hand from its published facts.
+#include "sfsm/rivals/rivals.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "sfsm/detail.h"
+
+namespace sfsm {
+namespace {
+
+constexpr double target = 20;    // [ms]
+constexpr double range = 200;    // [m]
+constexpr double exact = 1e-12;  // of details that go through a decision and back
+
+// A rival that sees each time before the next decision.
+struct Driven {
+    explicit Driven(std::string_view name) : law(make_rival(name)) { decision = law->decide({target, range}); }
+
+    std::unique_ptr<Controller> law;
+    Decision decision;
+
+    double detail() const { return detail_of(decision, range); }
+
+    // The detail after `times` times of `load` targets.
+    double after(int times, double load) {
+        for (int i = 0; i < times; ++i) {
+            law->observe({0, load * target, decision, {}});
+            decision = law->decide({target, range});
+        }
+        return detail();
+    }
+};
+
+TEST(Rivals, AnUnknownNameIsAnsweredWithTheNamesThereAre) {
+    try {
+        make_rival("paper");
+        FAIL() << "accepted";
+    } catch (const std::invalid_argument& error) {
+        const std::string message = error.what();
+        EXPECT_NE(message.find("'paper'"), std::string::npos) << message;
+        for (const std::string_view name : rival_names()) EXPECT_NE(message.find(name), std::string::npos) << message;
+    }
+}
+
+TEST(Rivals, NeverGoBelowTheirLeastDetail) {
+    for (const std::string_view name : rival_names()) {
+        const double least = Driven(name).after(5000, 50);
+        EXPECT_NEAR(least, 0.05, 1e-3) << name;
+    }
+}
+
+TEST(Filament, DividesByItsOutputWhenSlow) {
+    Driven filament("filament");
+    const double error = 1 - 2.0;
+    const double output = (1 - std::exp(-1.0 / 8)) * error + 0.002 * error;
+    EXPECT_NEAR(filament.after(1, 2), 1 / (1 - output), 1e-7);
+}
+
+TEST(Filament, HasADeadBand) {
+    EXPECT_EQ(Driven("filament").after(1, 1.05), 1) << "0.12 * 0.05 is under 0.01";
+    EXPECT_LT(Driven("filament").after(1, 1.1), 1);
+}
+
+TEST(Intel, TakesAHundredthOfTheErrorOffTheScale) {
+    const double scale = 1 - 0.01 * 0.5;
+    EXPECT_NEAR(Driven("intel").after(1, 1.5), scale * scale, exact);
+}
+
+TEST(DarkPlaces, StepsInProportionAndTaxesRises) {
+    Driven darkplaces("darkplaces");
+    EXPECT_NEAR(darkplaces.after(1, 1.25), 1 - 0.2 * 0.2, exact);
+    EXPECT_NEAR(darkplaces.after(1, 0.8), 0.96, exact) << "0.2 * 0.25 is no more than the tax";
+    EXPECT_NEAR(darkplaces.after(1, 0.5), 0.96 * (1 + 0.2 - 0.05), exact + 0.11) << "at most 0.1";
+    EXPECT_LE(darkplaces.detail(), 1);
+}
+
+TEST(Minetest, MovesFiveTimesASecondByHalfTheSecant) {
+    Driven minetest("minetest");
+    EXPECT_EQ(minetest.after(4, 2), 1) << "160 ms have passed";
+    EXPECT_NEAR(minetest.after(1, 2), (240 - 0.5 * 20 / 0.5) / 240, exact) << "at the least slope, 0.5 ms a node";
+    EXPECT_NEAR(minetest.after(8, 1.3), 220.0 / 240, exact) << "within a third";
+}
+
+TEST(UnrealLike, PanicsAfterTwoFramesOverBudget) {
+    Driven unreal("unreal-like");
+    EXPECT_EQ(unreal.after(1, 1.5), 1);
+    EXPECT_NEAR(unreal.after(1, 1.5), 0.9 / 1.5, exact);
+}
+
+TEST(UnrealLike, ChangesEveryEighthFrameAtMost) {
+    Driven unreal("unreal-like");
+    unreal.after(2, 3);  // 0.3
+    EXPECT_NEAR(unreal.after(7, 0.6), 0.3, exact);
+    EXPECT_NEAR(unreal.after(1, 0.6), 0.3 + 0.9 * 0.3 * (0.9 / 0.6 - 1), exact);
+}
+
+TEST(Valve, DropsTwoLevelsAfterThreeFrames) {
+    Driven valve("valve");
+    EXPECT_EQ(valve.after(2, 0.95), 1);
+    EXPECT_NEAR(valve.after(1, 0.95), 1 / (1.15 * 1.15), exact);
+    EXPECT_NEAR(valve.after(4, 0.6), 1 / (1.15 * 1.15), exact);
+    EXPECT_NEAR(valve.after(1, 0.6), 1 / 1.15, exact) << "one up after five";
+}
+
+TEST(Valve, ForeseesAMiss) {
+    Driven valve("valve");
+    valve.after(3, 0.8);
+    EXPECT_NEAR(valve.after(1, 0.86), 1 / (1.15 * 1.15), exact) << "0.86 + 0.06 is over 0.9";
+}
+
+TEST(UnitySample, FallsByTheMissAndRisesAfterQuiet) {
+    Driven unity("unity-sample");
+    EXPECT_NEAR(unity.after(1, 1.25), 0.75, exact);
+    EXPECT_NEAR(unity.after(1, 0.7), 0.75, exact);    // falling: 10
+    EXPECT_NEAR(unity.after(116, 0.7), 0.75, exact);  // quiet: 3 each, 358
+    EXPECT_NEAR(unity.after(1, 0.7), 0.75 + 0.035 * (0.25 + 0.75 * 0.5), exact);
+}
+
+TEST(Hdrp, FallsByHalfItsRangeAfterFourBadGroups) {
+    Driven hdrp("hdrp");
+    EXPECT_EQ(hdrp.after(59, 1.5), 1);
+    EXPECT_NEAR(hdrp.after(1, 1.5), 1 - 0.95 / 2, exact);
+    EXPECT_NEAR(hdrp.after(119, 0.5), 0.525, exact);
+    EXPECT_NEAR(hdrp.after(1, 0.5), 0.525 + 0.95 / 5, exact);
+}
+
+TEST(UnityAdaptive, LowersFastAfterFourSeconds) {
+    Driven adaptive("unity-adaptive");
+    EXPECT_EQ(adaptive.after(99, 2), 1) << "3.96 s";
+    EXPECT_NEAR(adaptive.after(1, 2), 0.9, exact);
+    EXPECT_NEAR(Driven("unity-adaptive").after(416, 1.2), 1, exact) << "10 s where it is less slow";
+    EXPECT_NEAR(Driven("unity-adaptive").after(417, 1.2), 0.9, exact);
+}
+
+TEST(Woof, TakesAStepForEachRatioExceeded) {
+    const double goal = (target - 1.25) / target;
+    EXPECT_EQ(Driven("woof").after(14, 2), 1);
+    EXPECT_NEAR(Driven("woof").after(15, 1.1 * goal), 0.95, exact);
+    EXPECT_NEAR(Driven("woof").after(15, 1.3 * goal), 0.90, exact);
+    EXPECT_NEAR(Driven("woof").after(15, 1.6 * goal), 0.85, exact);
+}
+
+TEST(Drei, VotesOverTenWindows) {
+    Driven drei("drei");
+    EXPECT_NEAR(drei.detail(), 0.5, exact);
+    EXPECT_NEAR(drei.after(69, 2), 0.5, exact) << "windows of 7 frames at 40 ms";
+    EXPECT_NEAR(drei.after(1, 2), 0.4, exact);
+    EXPECT_NEAR(drei.after(260, 0.5), 0.5, exact) << "windows of 25 frames at 10 ms";
+}
+
+TEST(RobustMpc, DividesByTheWorstErrorOfItsForecasts) {
+    Driven mpc("robust-mpc");
+    EXPECT_NEAR(mpc.after(1, 2), 0.5, exact);
+    mpc.law->observe({0, 1.5 * target, mpc.decision, {}});  // half of the detail at 1.5 targets: 3 for all of it
+    mpc.decision = mpc.law->decide({target, range});
+    EXPECT_NEAR(mpc.detail(), 1 / (2.5 * (1 + 0.5)), exact) << "mean cost 2.5; 3 was taken for 2";
+}
+
+}  // namespace
+}  // namespace sfsm
