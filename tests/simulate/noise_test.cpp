@@ -1,0 +1,70 @@
+#include "sfsm/simulate/noise.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+namespace sfsm::simulate {
+namespace {
+
+constexpr std::int64_t samples = 100'000;
+// Of a mean of that many independent samples of deviation 1, five sigma.
+const double mean_tolerance = 5 / std::sqrt(static_cast<double>(samples));
+
+TEST(Noise, IsAFunctionOfSeedFrameAndStream) {
+    EXPECT_EQ(normal_at(3, 7, Stream::noise), normal_at(3, 7, Stream::noise));
+    std::set<double> values;
+    for (const std::uint64_t seed : {0, 1, 2}) {
+        for (const std::int64_t frame : {0, 1, 2}) {
+            for (const Stream stream : {Stream::noise, Stream::spike, Stream::spike_size}) {
+                values.insert(uniform_at(seed, frame, stream));
+            }
+        }
+    }
+    EXPECT_EQ(values.size(), 27u) << "no two of them share a number";
+}
+
+TEST(Noise, IsStandardNormal) {
+    double sum = 0, squares = 0, within_one = 0, over_two = 0;
+    for (std::int64_t frame = 0; frame < samples; ++frame) {
+        const double x = normal_at(1, frame, Stream::noise);
+        sum += x;
+        squares += x * x;
+        within_one += std::abs(x) < 1 ? 1 : 0;
+        over_two += x > 2 ? 1 : 0;
+    }
+    EXPECT_NEAR(sum / samples, 0, mean_tolerance);
+    EXPECT_NEAR(squares / samples, 1, std::sqrt(2.0) * mean_tolerance);
+    EXPECT_NEAR(within_one / samples, std::erf(1 / std::sqrt(2.0)), mean_tolerance);
+    EXPECT_NEAR(over_two / samples, std::erfc(2 / std::sqrt(2.0)) / 2, mean_tolerance);
+}
+
+TEST(Noise, UniformsFillTheOpenUnitInterval) {
+    double sum = 0, squares = 0;
+    for (std::int64_t frame = 0; frame < samples; ++frame) {
+        const double x = uniform_at(9, frame, Stream::spike);
+        ASSERT_GT(x, 0);
+        ASSERT_LT(x, 1);
+        sum += x;
+        squares += x * x;
+    }
+    EXPECT_NEAR(sum / samples, 1.0 / 2, mean_tolerance);
+    EXPECT_NEAR(squares / samples, 1.0 / 3, mean_tolerance);
+}
+
+TEST(Noise, FramesSeedsAndStreamsAreUncorrelated) {
+    double frames = 0, seeds = 0, streams = 0;
+    for (std::int64_t frame = 0; frame < samples; ++frame) {
+        const double x = normal_at(1, frame, Stream::noise);
+        frames += x * normal_at(1, frame + 1, Stream::noise);
+        seeds += x * normal_at(2, frame, Stream::noise);
+        streams += x * normal_at(1, frame, Stream::spike);
+    }
+    EXPECT_NEAR(frames / samples, 0, mean_tolerance);
+    EXPECT_NEAR(seeds / samples, 0, mean_tolerance);
+    EXPECT_NEAR(streams / samples, 0, mean_tolerance);
+}
+
+}  // namespace
+}  // namespace sfsm::simulate

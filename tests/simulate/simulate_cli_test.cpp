@@ -1,0 +1,91 @@
+// The simulate mode of the replay program as a user meets it.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/command.h"
+
+namespace {
+
+using tests::Directory;
+using tests::Outcome;
+using tests::run;
+
+TEST(Simulate, PrintsATableWithTheLawsAskedFor) {
+    const Outcome outcome = run("replay", "--simulate quiet --laws paper,filament --seeds 2");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_TRUE(outcome.out.starts_with("quiet: ")) << outcome.out;
+    EXPECT_NE(outcome.out.find("\npaper "), std::string::npos);
+    EXPECT_NE(outcome.out.find("\nfilament "), std::string::npos);
+    EXPECT_EQ(outcome.out.find("\nintel "), std::string::npos);
+}
+
+TEST(Simulate, JsonOnStandardOutputComesWithoutTheTable) {
+    const Outcome outcome = run("replay", "--simulate quiet --laws oracle,paper --seeds 1 --json -");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const nlohmann::json json = nlohmann::json::parse(outcome.out);
+    ASSERT_EQ(json.at("rows").size(), 3u);
+    EXPECT_EQ(json["rows"][1]["scenario"], "quiet");
+    EXPECT_EQ(json["rows"][1]["law"], "paper");
+    EXPECT_GT(json["rows"][1]["us_per_frame"], 0);
+}
+
+TEST(Simulate, AllLawsTakePart) {
+    const Outcome outcome = run("replay", "--simulate quiet --laws all --seeds 1");
+    for (const char* law : {"oracle", "predictive", "paper", "filament", "robust-mpc"}) {
+        EXPECT_NE(outcome.out.find("\n" + std::string(law) + " "), std::string::npos) << law;
+    }
+}
+
+TEST(Simulate, ItsTraceIsReproducedToTheBit) {
+    const Directory folder;
+    const Outcome made = run("replay", "--simulate toy --laws paper --seeds 1 --csv " + (folder / "run.csv") +
+                                           " --json " + (folder / "card.json"));
+    ASSERT_EQ(made.code, 0) << made.err;
+    const Outcome verified = run("replay", (folder / "run.csv") + " --verify");
+    EXPECT_EQ(verified.code, 0) << verified.err;
+    EXPECT_NE(verified.out.find("all 3600 decisions of law paper"), std::string::npos) << verified.out;
+    EXPECT_NO_THROW(nlohmann::json::parse(tests::read_file(folder / "card.json")));
+}
+
+TEST(Simulate, UsageErrorsAreOneLineAndCode2) {
+    const std::pair<const char*, const char*> bads[] = {
+        {"--simulate bogus", "paper-1"},
+        {"--simulate toy --laws bogus", "filament"},
+        {"--simulate toy --seeds 0", "--seeds"},
+        {"--simulate toy --seeds many", "--seeds"},
+        {"--simulate toy trace.csv", "TRACE"},
+        {"--simulate toy --law paper", "--law"},
+        {"--simulate toy --verify", "--verify"},
+        {"--simulate toy --csv run.csv", "one scenario and one law"},
+        {"--simulate all --laws paper --csv run.csv", "one scenario and one law"},
+        {"--simulate toy --laws paper --csv - --json -", "at most one"},
+        {"--json -", "--simulate"},
+        {"--laws paper", "--simulate"},
+    };
+    for (const auto& [arguments, named] : bads) {
+        const Outcome outcome = run("replay", arguments);
+        EXPECT_EQ(outcome.code, 2) << arguments;
+        EXPECT_TRUE(tests::one_line(outcome.err)) << outcome.err;
+        EXPECT_NE(outcome.err.find(named), std::string::npos) << arguments << ": " << outcome.err;
+        EXPECT_EQ(outcome.out, "") << arguments;
+    }
+}
+
+TEST(Simulate, NothingIsRunWhereTheResultCannotBeWritten) {
+    const Directory folder;
+    const Outcome outcome = run("replay", "--simulate all --json " + (folder / "no/such/card.json"));
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_TRUE(tests::one_line(outcome.err)) << outcome.err;
+    EXPECT_NE(outcome.err.find("cannot write"), std::string::npos);
+}
+
+TEST(Simulate, HelpShowsHow) {
+    const Outcome outcome = run("replay", "--help");
+    EXPECT_EQ(outcome.code, 0);
+    for (const char* word : {"--simulate", "--laws", "--seeds", "--json", "replay --simulate toy"}) {
+        EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
+    }
+}
+
+}  // namespace
