@@ -17,10 +17,14 @@ constexpr int most_turns = 6;
 constexpr double gain_memory = 60;                      // [samples] that the gain is averaged over
 constexpr double price_walk = 0.0003;                   // 1 sigma per sample, in units of the first belief
 constexpr double most_price = 1e4, least_fixed = 1e-4;  // in units of the first guess
+constexpr double disagreement = 8;                      // of two times, in sigmas of the noise
 constexpr double likeness = 2;                          // standard deviations within which a gain is one known before
 constexpr double most_recall = 0.1;                     // and relative
 constexpr double recall_worth = 16;                     // frames of the new level that the old one is worth
 constexpr double most_log_gain = 60;
+constexpr double strangely_off = 3;  // ln of 20
+constexpr double known = 0.5;        // uncertainty over which nothing is strange
+constexpr int most_strange = 8;      // times in a row that are strange; then they are what frames take now
 constexpr double least_log_ms = -40, most_log_ms = 40;
 // The median of |a - b| of two normal numbers of spread 1.
 constexpr double median_difference = 0.9539;
@@ -55,6 +59,11 @@ void CostModel::start(const Amounts& amounts, double ms) {
 
 void CostModel::observe(const Amounts& amounts, double ms) {
     const Seen seen{amounts, std::clamp(std::log(ms), least_log_ms, most_log_ms)};
+    if (is_ready() && is_strange(seen)) {
+        if (++strange_ < most_strange) return;
+    } else {
+        strange_ = 0;
+    }
     if (samples_ == 0) start(amounts, ms);
     if (samples_ == 1) {
         // Of two first times the shorter is the better guess.
@@ -67,6 +76,11 @@ void CostModel::observe(const Amounts& amounts, double ms) {
     learn_noise(seen);
     const int shown = detector_.add(correct(seen));
     if (shown > 0) take_shift(shown);
+}
+
+bool CostModel::is_strange(const Seen& seen) const {
+    const Prediction prediction = predict(seen.amounts);
+    return prediction.uncertainty < known && std::abs(seen.log_ms - prediction.log_ms) > strangely_off;
 }
 
 double CostModel::log_time(const Amounts& amounts, Vector& gradient) const {
@@ -136,17 +150,22 @@ void CostModel::learn_noise(const Seen& seen) {
     noise_ = std::clamp(noise_, least_noise, most_noise);
 }
 
-// The newest `count` times tell of another level: forget the gain, and hear them again.
+// The newest `count` times tell of another level: forget the gain, and hear them again. But two alone that tell of
+// different levels are two outliers.
 void CostModel::take_shift(int count) {
-    detector_.clear();
-    ++shifts_;
     const auto newest = [&](int i) -> const Seen& {
         return recent_[static_cast<std::size_t>((samples_ - i) % ShiftDetector::window)];
     };
     Vector gradient;
-    double least = most_log_ms;
-    for (int i = 1; i <= count; ++i)
-        least = std::min(least, std::abs(newest(i).log_ms - log_time(newest(i).amounts, gradient)));
+    double least = most_log_ms, most = 0;
+    for (int i = 1; i <= count; ++i) {
+        const double residual = std::abs(newest(i).log_ms - log_time(newest(i).amounts, gradient));
+        least = std::min(least, residual);
+        most = std::max(most, residual);
+    }
+    if (count == 2 && most - least > disagreement * noise_) return;
+    detector_.clear();
+    ++shifts_;
     const double log_gain = state_[0], variance = spread_[0][0];
     for (int i = 0; i < states_; ++i) spread_[0][i] = spread_[i][0] = 0;
     spread_[0][0] = least * least + noise_ * noise_;

@@ -38,7 +38,8 @@ class CostModel {
 public:
     explicit CostModel(const PriceBelief& belief);
 
-    // A frame of these amounts took `ms` (finite, > 0). About 0.3 us.
+    // A frame of these amounts took `ms` (finite, > 0). Times 20-fold off are a pause, a loading screen, a window that
+    // was dragged: not believed before the eighth in a row.
     void observe(const Amounts& amounts, double ms);
 
     // Means nothing before is_ready().
@@ -68,6 +69,7 @@ private:
     void start(const Amounts& amounts, double ms);
     double log_time(const Amounts& amounts, Vector& gradient) const;
     double correct(const Seen& seen);
+    bool is_strange(const Seen& seen) const;
     void limit();
     void forget();
     void learn_noise(const Seen& seen);
@@ -81,6 +83,7 @@ private:
     double log_scale_ = 0;                      // ln [ms] per unit of amount at price 1
     double noise_ = 0;
     double last_residual_ = 0;
+    int strange_ = 0;    // times in a row that were absurdly off
     int residuals_ = 0;  // that told of the noise so far; counts to a few hundred
     std::int64_t samples_ = 0;
     std::int64_t shifts_ = 0;

@@ -45,6 +45,8 @@ constexpr int longest_wait = 24;       // decisions until a probe's time is give
 
 constexpr double much_over = 1.03;  // t at which a rise has failed
 
+constexpr double out_of_reach_band = 0.05;  // over the aim, relative
+
 constexpr double most_count = 1e15;  // of any work
 
 bool is_usable(double value) {
@@ -112,11 +114,12 @@ Decision PredictiveLaw::decide(const FrameRequest& request) {
     return status_.decision;
 }
 
-// Below the target for the noise, and lower for what is not known. Where even the coarsest is too slow, next to that.
+// Below the target for the noise, and lower for what is not known. Where even the coarsest is too slow, as near to that
+// as is worth the detail.
 double PredictiveLaw::aim(const CostModel& model, double least_ms, double uncertainty) const {
     const double headroom = std::min(options_.headroom * model.noise(), options_.most_headroom);
     const double aim_ms = target_ms_ * (1 - headroom);
-    if (least_ms > aim_ms) return least_ms * (1 + options_.worthwhile);
+    if (least_ms > aim_ms) return least_ms + options_.worthwhile * (least_ms - aim_ms);
     return std::max(aim_ms * std::exp(-options_.caution * uncertainty), least_ms);
 }
 
@@ -167,20 +170,31 @@ double PredictiveLaw::axis_ms(double detail) const {
 
 void PredictiveLaw::turn_axis() {
     const double least_ms = axis_ms(0);
-    const Prediction now = axis_.predict(axis_amounts(detail_));
     const double aim_ms = aim(axis_, least_ms, 0);
+    const Prediction now = axis_.predict(axis_amounts(detail_));
     ceiling_.step(axis_ms(ceiling_.floor()));
-    if (!is_kept(now, aim_ms)) {
-        const Prediction there = axis_.predict(axis_amounts(detail_for(aim_ms)));
-        const double wanted = detail_for(aim(axis_, least_ms, there.uncertainty));
-        if (wanted > detail_) {
-            detail_ = ceiling_.rise(detail_, wanted, std::exp(now.log_ms));
-        } else if (wanted < detail_) {
-            detail_ = std::exp(now.log_ms) > much_over * target_ms_ ? ceiling_.fall(detail_, wanted) : wanted;
-        }
-        status_.reason = reason_to_move(now, aim_ms, least_ms);
+    const double sure_ms = aim(axis_, least_ms, axis_.predict(axis_amounts(detail_for(aim_ms))).uncertainty);
+    const double before = detail_;
+    if (least_ms > target_ms_) {
+        turn_out_of_reach(detail_for(aim_ms), std::exp(now.log_ms) / aim_ms);
+    } else if (!is_kept(now, aim_ms)) {
+        turn_to(detail_for(sure_ms), std::exp(now.log_ms));
     }
+    if (detail_ != before) status_.reason = reason_to_move(now, aim_ms, least_ms);
     believe(axis_.predict(axis_amounts(detail_)), axis_);
+}
+
+void PredictiveLaw::turn_to(double detail, double now_ms) {
+    if (detail > detail_) {
+        detail_ = ceiling_.rise(detail_, detail, now_ms);
+    } else if (detail < detail_) {
+        detail_ = now_ms > much_over * target_ms_ ? ceiling_.fall(detail_, detail) : detail;
+    }
+}
+
+// Detail that seems to cost nothing is kept until it clearly does.
+void PredictiveLaw::turn_out_of_reach(double detail, double over_aim) {
+    if (detail > detail_ || over_aim > 1 + out_of_reach_band) detail_ = detail;
 }
 
 void PredictiveLaw::decide_on_axis() {
@@ -214,7 +228,7 @@ WorkPrices PredictiveLaw::prices(const Forecast& forecast) const {
 }
 
 Decision PredictiveLaw::decision_of(const Plan& plan) const {
-    const bool is_all_moving = !(plan.distance < range_);
+    const bool is_all_moving = !(plan.distance > 0 && plan.distance < range_);
     if (!(plan.size > 0)) return is_all_moving ? Decision{} : Decision{State::slowed, plan.distance, 0};
     return {State::points, is_all_moving ? range_ : plan.distance, std::min(plan.size, max_splat_size)};
 }

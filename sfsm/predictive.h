@@ -19,8 +19,9 @@ struct PredictiveOptions {
     int probes = 2;                 // single frames spent on learning what motion costs, and as many on points, >= 0
     double band = 0.006;            // a decision is kept while predicted so near to its aim, relative, [0, 0.2]
     double band_sigmas = 2.6;       // or so many sigmas of the prediction, [0, 6]
-    double worthwhile = 0.02;       // where the target can't be met, the finest that is so near to the coarsest, [0, 1]
-    double better = 0.1;            // share of loss for which another decision of equal time is taken, [0, 1]
+    double worthwhile =
+        0.25;             // out of reach, detail is kept while it costs no more than this share of the miss, [0, 1]
+    double better = 0.1;  // share of loss for which another decision of equal time is taken, [0, 1]
 
     // Throws std::invalid_argument naming the first broken rule.
     void validate() const;
@@ -49,6 +50,8 @@ private:
 
     void decide_on_axis();
     void turn_axis();
+    void turn_to(double detail, double now_ms);
+    void turn_out_of_reach(double detail, double over_aim);
     double axis_ms(double detail) const;
     void decide_from(const Forecast& forecast);
     double detail_for(double ms) const;
