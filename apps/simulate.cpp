@@ -79,16 +79,30 @@ double now_us() {
     return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// A forecast is not part of a trace, so a run that had one can't be verified and doesn't say `state`.
 std::map<std::string, std::string> trace_settings(const sim::Scenario& scenario, const std::string& law) {
-    std::map<std::string, std::string> settings = {{"scenario", scenario.name},
-                                                   {"law", law},
-                                                   {"seed", "1"},
-                                                   {"delay", std::to_string(scenario.delay)},
-                                                   {"target_ms", scenario.target.text()},
-                                                   {"version", GRANDSTAND_VERSION}};
-    if (!scenario.plant->forecast(0)) settings["state"] = "auto";
-    return settings;
+    return {{"scenario", scenario.name},
+            {"law", law},
+            {"state", "auto"},
+            {"seed", "1"},
+            {"delay", std::to_string(scenario.delay)},
+            {"target_ms", scenario.target.text()},
+            {"version", GRANDSTAND_VERSION}};
+}
+
+sfsm::TraceRow trace_row(const sim::Plant& plant, std::int64_t frame, const sim::Outcome& outcome) {
+    sfsm::TraceRow row;
+    row.frame = frame;
+    row.target_ms = outcome.target_ms;
+    row.frame_ms = outcome.ms;
+    row.cpu_ms = row.gpu_ms = std::numeric_limits<double>::quiet_NaN();
+    row.decision = outcome.decision;
+    row.range = plant.range(frame);
+    row.work = plant.work(frame, row.decision);
+    if (const sfsm::Forecast* forecast = plant.forecast(frame)) {
+        row.motion.assign(forecast->motion.begin(), forecast->motion.end());
+        row.splats.assign(forecast->splats.begin(), forecast->splats.end());
+    }
+    return row;
 }
 
 void write_run(std::ostream& out, const sim::Course& course, const sim::Contestant& law) {
@@ -96,16 +110,7 @@ void write_run(std::ostream& out, const sim::Course& course, const sim::Contesta
     sim::run(course, *law.make(course), {}, outcomes);
     sfsm::write_trace_header(out, trace_settings(course.scenario, law.name));
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
-        const sim::Outcome& outcome = outcomes[i];
-        sfsm::TraceRow row;
-        row.frame = static_cast<std::int64_t>(i);
-        row.target_ms = outcome.target_ms;
-        row.frame_ms = outcome.ms;
-        row.cpu_ms = row.gpu_ms = std::numeric_limits<double>::quiet_NaN();
-        row.decision = outcome.decision;
-        row.range = course.scenario.plant->range(row.frame);
-        row.work = course.scenario.plant->work(row.frame, row.decision);
-        sfsm::write_trace_row(out, row);
+        sfsm::write_trace_row(out, trace_row(*course.scenario.plant, static_cast<std::int64_t>(i), outcomes[i]));
     }
 }
 

@@ -39,13 +39,16 @@ TEST(Simulate, AllLawsTakePart) {
 
 TEST(Simulate, ItsTraceIsReproducedToTheBit) {
     const Directory folder;
-    const Outcome made = run("replay", "--simulate toy --laws paper --seeds 1 --csv " + (folder / "run.csv") +
-                                           " --json " + (folder / "card.json"));
-    ASSERT_EQ(made.code, 0) << made.err;
-    const Outcome verified = run("replay", (folder / "run.csv") + " --verify");
-    EXPECT_EQ(verified.code, 0) << verified.err;
-    EXPECT_NE(verified.out.find("all 3600 decisions of law paper"), std::string::npos) << verified.out;
-    EXPECT_NO_THROW(nlohmann::json::parse(tests::read_file(folder / "card.json")));
+    // Without forecast, with one, and with times that are none.
+    for (const char* run_of : {"toy --laws paper", "camera-cut --laws predictive", "pause --laws predictive"}) {
+        const Outcome made = run("replay", std::string("--simulate ") + run_of + " --seeds 1 --csv " +
+                                               (folder / "run.csv") + " --json " + (folder / "card.json"));
+        ASSERT_EQ(made.code, 0) << made.err;
+        const Outcome verified = run("replay", (folder / "run.csv") + " --verify");
+        EXPECT_EQ(verified.code, 0) << run_of << ": " << verified.err;
+        EXPECT_NE(verified.out.find("reproduced to the bit"), std::string::npos) << verified.out;
+        EXPECT_NO_THROW(nlohmann::json::parse(tests::read_file(folder / "card.json")));
+    }
 }
 
 TEST(Simulate, UsageErrorsAreOneLineAndCode2) {
