@@ -77,7 +77,7 @@ double equal_miss_factor(const Course& course, const Contestant& law, double ask
     double low = std::log(least_factor), high = std::log(most_factor);
     for (int i = 0; i < bisections; ++i) {
         const double middle = (low + high) / 2;
-        (misses(course, law, std::exp(middle), std::min(seeds, search_seeds)) <= asked ? low : high) = middle;
+        (misses(course, law, std::exp(middle), seeds) <= asked ? low : high) = middle;
     }
     return std::exp(low);
 }
@@ -103,14 +103,18 @@ bool has_step(const Scenario& scenario, bool is_down) {
 struct Arena {
     Course course;
     double oracle_over_5pct = 0;
-    double reference_over_5pct = 0;
+    double asked_over_5pct = 0;  // the reference's, of the seeds that the search goes through
 };
+
+int seeds_to_search(const ScorecardOptions& options) {
+    return std::min(options.seeds, search_seeds);
+}
 
 Arena make_arena(const Scenario& scenario, const ScorecardOptions& options) {
     Arena arena{make_course(scenario)};
     const Contestant oracle{"", [](const Course& course) { return std::make_unique<Oracle>(course); }};
     arena.oracle_over_5pct = misses(arena.course, oracle, 1, options.seeds);
-    arena.reference_over_5pct = misses(arena.course, options.reference, 1, options.seeds);
+    arena.asked_over_5pct = misses(arena.course, options.reference, 1, seeds_to_search(options));
     return arena;
 }
 
@@ -141,7 +145,7 @@ std::vector<Row> rows_of(const Arena& arena, const Contestant& law, const Scorec
     if (!law.is_retuned) return rows;
     const double factor = law.name == options.reference.name
                               ? 1
-                              : equal_miss_factor(arena.course, law, arena.reference_over_5pct, options.seeds);
+                              : equal_miss_factor(arena.course, law, arena.asked_over_5pct, seeds_to_search(options));
     rows.push_back(make_row(arena, law, Tuning::equal_miss, factor, options.seeds));
     rows.back().us_per_frame = rows.front().us_per_frame;
     return rows;
