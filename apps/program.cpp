@@ -125,7 +125,7 @@ CLI::Validator one_of(std::span<const std::string_view> names) {
         if (std::find(names.begin(), names.end(), text) != names.end()) return {};
         return "found '" + text + "', expected one of: " + list;
     };
-    return CLI::Validator(check, "");
+    return CLI::Validator(check, "{" + list + "}");
 }
 
 void describe(CLI::App& app, const std::string& examples) {

@@ -25,7 +25,7 @@ inline std::invalid_argument wrong_argument(const std::string& option, const std
 CLI::Validator whole_number(std::uint64_t low, std::uint64_t high);
 CLI::Validator number_over(double low, double high);
 
-// One of `names`, which are static.
+// One of `names`, which are static; --help lists them.
 CLI::Validator one_of(std::span<const std::string_view> names);
 
 // Adds --version and the examples, of which the last lines say the exit codes, to `app`.

@@ -79,7 +79,7 @@ void add_control_options(CLI::App& app, StadiumOptions& options) {
     app.add_option_function<std::string>("--target-ms", set_target,
                                          "Frame time to hold [ms]; X,Y@N,Z@M changes it at frames N and M")
         ->default_str(options.target.text());
-    app.add_option("--law", options.law, "The controller's law: " + CLI::detail::join(sfsm::law_names(), ", "))
+    app.add_option("--law", options.law, "The controller's law")
         ->check(one_of(sfsm::law_names()))
         ->capture_default_str();
     app.add_option_function<std::string>(

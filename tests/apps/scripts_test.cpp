@@ -1,0 +1,83 @@
+// The shell scripts, with stand-ins for what they call: nothing is installed or built.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/command.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class Scripts : public testing::Test {
+protected:
+    void SetUp() override {
+        for (const char* folder : {"tools", "tmp", "root/scripts", "root/build/release/bin", "elsewhere"})
+            fs::create_directories(directory_ / folder);
+        for (const char* script : {"scripts/setup", "demo"})
+            fs::copy_file(fs::path(GRANDSTAND_SOURCE) / script, directory_ / ("root/" + std::string(script)));
+        // All that the scripts may find, besides what a test adds.
+        for (const std::string tool : {"cat", "dirname", "env", "grep", "id", "mkdir", "mktemp", "rm", "tail", "tr"})
+            fs::create_symlink(fs::exists("/usr/bin/" + tool) ? "/usr/bin/" + tool : "/bin/" + tool,
+                               directory_ / ("tools/" + tool));
+    }
+
+    void stand_in(const std::string& path, const std::string& body) const {
+        std::ofstream(directory_ / path) << "#!/bin/sh\n" << body << '\n';
+        fs::permissions(directory_ / path, fs::perms::owner_all);
+    }
+
+    // Called from `elsewhere`; both streams are kept as one.
+    tests::Outcome call(const std::string& script, const std::string& arguments = "") const {
+        const std::string command = "cd " + (directory_ / "elsewhere") + " && TMPDIR=" + (directory_ / "tmp") +
+                                    " PATH=" + (directory_ / "tools") + " " +
+                                    (directory_ / ("root/" + std::string(script))) + " " + arguments + " >" +
+                                    (directory_ / "said") + " 2>&1";
+        const int code = tests::code_of(std::system(command.c_str()));
+        EXPECT_TRUE(fs::is_empty(directory_ / "tmp")) << "a log is left behind";
+        return {code, tests::read_file(directory_ / "said"), ""};
+    }
+
+    tests::Directory directory_;
+};
+
+TEST_F(Scripts, SetupPrintsTheListWhereThereIsNoAptAndNoCmake) {
+    const tests::Outcome outcome = call("scripts/setup");
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_NE(outcome.out.find("no apt-get and no c++ cmake"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("libglm-dev"), std::string::npos) << outcome.out;
+}
+
+TEST_F(Scripts, SetupPrintsTheListWhereThereIsNoAptAndALibraryIsMissing) {
+    for (const char* tool : {"c++", "ninja", "pkg-config"}) stand_in(std::string("tools/") + tool, "exit 0");
+    stand_in("tools/cmake", "echo no Embree; exit 1");
+    const tests::Outcome outcome = call("scripts/setup");
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_NE(outcome.out.find("no Embree"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("libglm-dev"), std::string::npos) << outcome.out;
+}
+
+TEST_F(Scripts, SetupInstallsWhatIsMissingAndSaysWhenThatFails) {
+    stand_in("tools/sudo", "exec \"$@\"");
+    stand_in("tools/dpkg-query", "case \"$*\" in *libglm-dev*) ;; *) echo install ok installed;; esac");
+    stand_in("tools/apt-get", "echo \"apt-get $*\" >&2; [ \"$1\" = update ]");
+    const tests::Outcome outcome = call("scripts/setup");
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_NE(outcome.out.find("Installing: libglm-dev\n"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("apt-get install -y --no-install-recommends libglm-dev\n"), std::string::npos);
+    EXPECT_NE(outcome.out.find("apt-get failed"), std::string::npos) << outcome.out;
+}
+
+TEST_F(Scripts, DemoLeavesTheCallerInItsDirectory) {
+    stand_in("root/scripts/setup", "exit 0");
+    stand_in("root/build/release/bin/stadium", "echo \"in $PWD: $*\"; exit 7");
+    const tests::Outcome outcome = call("demo", "--character 'a b.glb'");
+    EXPECT_EQ(outcome.code, 7);
+    EXPECT_NE(outcome.out.find("in " + fs::canonical(directory_ / "elsewhere").string() + ":"), std::string::npos)
+        << outcome.out;
+    EXPECT_NE(outcome.out.find("--character a b.glb"), std::string::npos) << outcome.out;
+    EXPECT_TRUE(fs::exists(directory_ / "root/out"));
+}
+
+}  // namespace
