@@ -14,7 +14,8 @@ using Memory = SafeguardedMemory;
 using Constants = SafeguardedConstants;
 constexpr State s0 = State::original, s1 = State::slowed, s2 = State::points;
 
-constexpr double first_noise = 0.03;                          // before any has been seen
+constexpr double longest_frame = 1e6;  // [ms]; a longer time is a pause of the program, as bad as none
+constexpr double first_noise = 0.03;   // before any has been seen
 constexpr double least_noise = 0.002, most_noise = 0.3;       // of log T
 constexpr double deviation_of_changes = 1.048;                // of a normal: sigma / median |x_i - x_{i-1}|
 constexpr double largest_miss = 6.9;                          // of log T: a factor of 1000
@@ -31,7 +32,7 @@ double error_of(const Memory& m) {
 }
 
 double miss_of(const Memory& m) {
-    return std::clamp(m.dwell.level - m.target, -largest_miss, largest_miss);
+    return std::clamp(m.dwell.level - m.aim, -largest_miss, largest_miss);
 }
 
 // The slope at a detail: that learned, carried along a straight line; else T in proportion to detail on the way down.
@@ -79,8 +80,11 @@ void learn_slope(Memory& m, const Constants& c) {
     const double change = std::clamp(m.dwell.level - before.level, -largest_miss, largest_miss);
     const double old_slope = slope_at(m, m.detail, moved > 0);
     const bool is_clear = std::abs(change) > doubt;
+    if (!is_clear && old_slope * std::abs(moved) <= 2 * doubt) {
+        m.before = before;
+        return;
+    }
     m.is_blind = !is_clear && m.state == s1 && moved <= -c.blind_step;
-    if (!is_clear && old_slope * std::abs(moved) <= 2 * doubt) return;
     if (is_clear && (change > 0) != (moved > 0)) return forget_bracket(m);  // another scene
     double slope = is_clear ? (1 - std::exp(-change)) / moved : 0;
     if (m.slope != 0) {
@@ -161,10 +165,12 @@ void watch_hold(Memory& m, const Constants& c) {
 void weigh(Memory& m, const Constants& c) {
     m.verdict = Verdict::fine;
     m.next = m.detail;
+    m.aim = m.target - c.headroom * m.noise;
     watch_hold(m, c);
-    if (!m.is_held && differs(m, c, m.target, c.dead_band)) {
-        m.verdict = m.dwell.level > m.target ? Verdict::slow : Verdict::fast;
+    if (!m.is_held && differs(m, c, m.aim, c.dead_band)) {
+        m.verdict = m.dwell.level > m.aim ? Verdict::slow : Verdict::fast;
     }
+    if (m.quiet >= c.settled) m.before = {};  // of another scene by now
     if (m.verdict != Verdict::fine || m.dwell.times == c.settled) learn_slope(m, c);
     if (m.verdict == Verdict::fine) {
         m.quiet = std::min(m.quiet + 1, c.settled);
@@ -226,12 +232,20 @@ bool slow_without_gain(const Memory& m, const Constants& c) {
            m.dwell.level > m.top.level - c.no_gain * m.top.detail;
 }
 
+bool no_gain_from_original(const Memory& m, const Constants& c) {
+    return slow_without_gain(m, c) && m.top.detail == 1;
+}
+
+bool no_gain_from_distance(const Memory& m, const Constants& c) {
+    return slow_without_gain(m, c) && m.top.detail >= detail_of_points;
+}
+
 // Actions.
 
 void stay(Memory&, const Constants&) {}
 
 void move(Memory& m, const Constants&) {
-    m.before = present_cost(m);
+    if (!m.before.is_known) m.before = present_cost(m);
     m.detail = m.next;
     m.dwell = {};
     m.quiet = 0;
@@ -263,7 +277,7 @@ void hold_here(Memory& m, const Constants&) {
 
 void give_back(Memory& m, const Constants& c) {
     hold_level(m, m.top.level);
-    m.next = 1;
+    m.next = m.top.detail;
     leave_points(m, c);
     m.before = {};
     forget_bracket(m);
@@ -273,7 +287,7 @@ void give_back(Memory& m, const Constants& c) {
 constexpr SafeguardedTransition transitions[] = {
     {"a", s0, s1, slow_towards_distance, move, "slow, next detail from 2/3", "D by the secant", "slow: state 1"},
     {"c", s0, s2, slow_towards_points, enter_points, "slow, next detail below 2/3", "S by the secant", "slow: state 2"},
-    {"", s0, s0, held, stay, "held", "stay", "detail does not help: all of it"},
+    {"", s0, s0, held, stay, "held", "stay", "less detail does not help: waiting in state 0"},
     {"", s0, s0, always, stay, "else", "stay", "original: no miss beyond the noise"},
 
     {"e", s1, s0, fast_towards_original, move, "fast, next detail 1", "D means nothing", "fast: state 0"},
@@ -281,7 +295,7 @@ constexpr SafeguardedTransition transitions[] = {
      "S by the secant", "slow beyond state 1: state 2"},
     {"", s1, s1, slow_towards_distance, move, "slow", "D by the secant, inside the bracket", "slow: D down"},
     {"", s1, s1, fast_towards_distance, move, "fast", "D by the secant, inside the bracket", "fast: D up"},
-    {"", s1, s1, held, stay, "held", "stay", "fast, anything finer is slow: waiting in state 1"},
+    {"", s1, s1, held, stay, "held", "stay", "held: waiting in state 1"},
     {"", s1, s1, fast_below_a_jump, hold_here, "fast, and all finer detail is slow", "hold",
      "fast, anything finer is slow: hold D"},
     {"", s1, s1, always, stay, "else", "stay", "D: no miss beyond the noise"},
@@ -290,11 +304,15 @@ constexpr SafeguardedTransition transitions[] = {
      "fast beyond state 1: state 0"},
     {"d", s2, s1, fast_towards_distance, leave_points, "fast, next detail from 2/3 + margin, and the wait is over",
      "D by the secant", "fast: state 1"},
-    {"g", s2, s0, slow_without_gain, give_back, "slow at the largest S, and no faster than with all detail",
-     "give all detail back, hold", "no detail helps: state 0"},
+    {"g", s2, s0, no_gain_from_original, give_back, "slow at the largest S, in vain since detail 1",
+     "back to where the search began, hold", "less detail does not help: back to state 0"},
+    {"h", s2, s1, no_gain_from_distance, give_back, "the same since a detail from 2/3",
+     "back to where the search began, hold", "less detail does not help: back to state 1"},
+    {"", s2, s2, slow_without_gain, give_back, "the same since a detail below 2/3",
+     "back to where the search began, hold", "less detail does not help: back to the finer S"},
     {"", s2, s2, slow_towards_points, move, "slow", "S by the secant, inside the bracket", "slow: S up"},
     {"", s2, s2, fast_towards_points, move, "fast", "S by the secant, inside the bracket", "fast: S down"},
-    {"", s2, s2, held, stay, "held", "stay", "fast, anything finer is slow: waiting in state 2"},
+    {"", s2, s2, held, stay, "held", "stay", "held: waiting in state 2"},
     {"", s2, s2, fast_below_a_jump, hold_here, "fast, and all finer detail is slow", "hold",
      "fast, anything finer is slow: hold S"},
     {"", s2, s2, always, stay, "else", "stay", "S: no miss beyond the noise"},
@@ -338,6 +356,7 @@ void SafeguardedConstants::validate() const {
         if (!holds) throw std::invalid_argument(std::string("safeguarded law: expected ") + rule);
     };
     require(dead_band >= 0 && dead_band <= 0.2, "dead_band in [0, 0.2]");
+    require(headroom >= 0 && headroom <= 3, "headroom in [0, 3]");
     require(trust >= 1 && trust <= 6, "trust in [1, 6]");
     require(outlier >= trust && outlier <= 20, "outlier in [trust, 20]");
     require(horizon >= 8 && horizon <= 4096, "horizon in [8, 4096]");
@@ -367,7 +386,7 @@ SafeguardedLaw::SafeguardedLaw(const SafeguardedConstants& constants) : constant
 }
 
 void SafeguardedLaw::observe(const FrameSample& sample) {
-    if (!is_usable(sample.ms)) {
+    if (!is_usable(sample.ms) || sample.ms > longest_frame) {
         ++status_.bad_samples;
         return;
     }

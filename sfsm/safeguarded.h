@@ -13,6 +13,7 @@ namespace sfsm {
 
 struct SafeguardedConstants {
     double dead_band = 0.005;     // misses up to this share of t are none, [0, 0.2]
+    double headroom = 0.3;        // standard deviations of one time that frames are aimed below t, [0, 3]
     double trust = 3;             // standard errors that a difference must exceed to be one, [1, 6]
     double outlier = 5;           // standard deviations beyond which one time alone is a hitch, [trust, 20]
     int horizon = 64;             // times that the mean of an unchanged decision looks back, [8, 4096]
@@ -47,6 +48,7 @@ struct Cost {
     double error = 0;
 };
 
+// Of the times of the present detail.
 enum class Verdict { fine, slow, fast };
 
 // What the machine remembers; the guards and actions of the table are functions of it.
@@ -54,6 +56,7 @@ struct SafeguardedMemory {
     State state = State::original;
     double detail = 1;  // [0, 1], sfsm/detail.h
     double target = 0;  // log t
+    double aim = 0;     // that less the headroom
     double noise = 0;   // standard deviation of log T, robust
     Dwell dwell;
     int quiet = 0;  // times since the last step or miss; at most `settled`
@@ -63,7 +66,7 @@ struct SafeguardedMemory {
     double slope_detail = 1;
     Cost fast_end, slow_end;  // the bracket
     double width = 1;         // of the bracket after the step before
-    Cost before;              // the last step's start
+    Cost before;              // from where the slope is learned next
     Cost top;                 // where the search went down from
     bool is_blind = false;    // the last step in state 1 had no effect
     bool is_held = false;     // nothing better is near: wait
@@ -77,7 +80,7 @@ struct SafeguardedMemory {
 // The first row of the present state whose guard holds is taken, once for every time that answers the last decision and
 // for every change of target.
 struct SafeguardedTransition {
-    const char* edge;  // "a".."g" between states, "" within one
+    const char* edge;  // "a".."h" between states, "" within one
     State from, to;
     bool (*holds)(const SafeguardedMemory&, const SafeguardedConstants&);
     void (*act)(SafeguardedMemory&, const SafeguardedConstants&);
