@@ -37,18 +37,22 @@ double dot(const auto& a, const auto& b, int n) {
 
 CostModel::CostModel(const PriceBelief& belief) : belief_(belief), states_(belief.terms + 1), noise_(first_noise) {
     assert(belief.terms >= 1 && belief.terms <= most_terms);
-    doubt();
+    believe();
 }
 
-void CostModel::doubt() {
+void CostModel::believe() {
     for (int i = 1; i < states_; ++i) {
         double correlation = 1;
         for (int j = i; j < states_; ++j) {
             spread_[j][i] = spread_[i][j] = correlation * belief_.spread[i - 1] * belief_.spread[j - 1];
             correlation *= i == 1 ? 0 : belief_.likeness;
         }
-        spread_[0][i] = spread_[i][0] = 0;
     }
+}
+
+void CostModel::nudge(double log_gain) {
+    state_[0] += log_gain;
+    limit();
 }
 
 void CostModel::start(const Amounts& amounts, double ms) {

@@ -55,8 +55,8 @@ public:
     std::int64_t shifts() const { return shifts_; }  // of level, that were found so far
     std::int64_t samples() const { return samples_; }
 
-    // Prices may have become others: believe in them no more than at the start, but keep the gain.
-    void doubt();
+    // Moves ln gain by so much.
+    void nudge(double log_gain);
 
 private:
     static constexpr int most_states = most_terms + 1;
@@ -66,6 +66,7 @@ private:
         double log_ms = 0;
     };
 
+    void believe();
     void start(const Amounts& amounts, double ms);
     double log_time(const Amounts& amounts, Vector& gradient) const;
     double correct(const Seen& seen);

@@ -91,10 +91,11 @@ void PredictiveLaw::observe(const FrameSample& sample) {
             const Amounts all = amounts_of(people, triangles, points, updates);
             frame_amount_ = frame_share * (all.of[1] + all.of[2] + all.of[3] + all.of[4]);
         }
-        work_.observe(amounts_of(people, triangles, points, updates), sample.ms);
+        work_refresh_.observe(work_, amounts_of(people, triangles, points, updates), sample.ms, target_ms_);
         if (sample.decision == probe_.decision) probe_.age = 0;
     }
-    if (!has_forecast_ && range_ > 0) axis_.observe(axis_amounts(drawn_detail(sample.decision)), sample.ms);
+    if (!has_forecast_ && range_ > 0)
+        axis_refresh_.observe(axis_, axis_amounts(drawn_detail(sample.decision)), sample.ms, target_ms_);
 }
 
 Decision PredictiveLaw::decide(const FrameRequest& request) {

@@ -9,6 +9,7 @@
 #include "sfsm/controller.h"
 #include "sfsm/cost_model.h"
 #include "sfsm/least_loss.h"
+#include "sfsm/refresh.h"
 
 namespace sfsm {
 
@@ -82,6 +83,7 @@ private:
     int since_choice_ = 0;  // decisions since kept_ changed
     double detail_ = 1;
     Ceiling ceiling_;
+    Refresh work_refresh_, axis_refresh_;
     std::array<Drawn, 16> drawn_{};  // the newest decisions on the axis (L may have moved since)
     std::size_t drawn_count_ = 0;
 };

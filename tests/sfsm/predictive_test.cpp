@@ -172,6 +172,23 @@ TEST(PredictiveLaw, GivesDetailBackWhereItBuysNothing) {
     EXPECT_EQ(changes(rows, 300, rows.size()), 0);
 }
 
+// Times in whole refreshes say nothing of the time to spare; detail is sought until a few frames are late.
+TEST(PredictiveLaw, FindsTheDetailThatADisplayHides) {
+    const Load load = [](std::int64_t frame) { return frame >= 1000 && frame < 2000 ? 1.6 : 1.0; };
+    const Time plant = knob(toy, load, 0.03);
+    const Time rounded = [&](std::int64_t frame, const Decision& decision) {
+        return std::ceil(plant(frame, decision) / target_ms) * target_ms;
+    };
+    const auto rows = run_knob(rounded, 3000, 2);
+    double late = 0, cost = 0;
+    for (std::size_t i = 200; i < rows.size(); ++i) {
+        late += rows[i].frame_ms > 1.5 * target_ms ? 1.0 / 2800 : 0;
+        cost += load(rows[i].frame) * toy(detail_of(rows[i].decision, test_range)) / 2800;
+    }
+    EXPECT_LT(late, 0.05);
+    EXPECT_GT(cost, 0.8) << "mean share of the refresh that is used";
+}
+
 TEST(PredictiveLaw, ANewTargetIsAnsweredInItsFrame) {
     PredictiveLaw law;
     const Target target = [](std::int64_t frame) { return frame < 300 ? target_ms : 0.8 * target_ms; };
