@@ -15,7 +15,7 @@ namespace sfsm::simulate {
 namespace {
 
 constexpr int threads = 2;
-constexpr int timed_runs = 3;
+constexpr int timed_runs = 10;
 // Of the search for the factor: fewer seeds than the row has, or most of the time would go into it.
 constexpr int search_seeds = 15;
 constexpr int bisections = 11;

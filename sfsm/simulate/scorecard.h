@@ -32,7 +32,7 @@ struct Row {
     double worst_over_5pct = 0;  // of all seeds
     double worst_quality = 0;
     double oracle_over_5pct = 0;  // median
-    double us_per_frame = 0;      // of decide and observe, in the fastest of three runs; 0 without a clock
+    double us_per_frame = 0;      // of decide and observe, in the fastest of ten runs; 0 without a clock
     bool has_step_down = false, has_step_up = false, has_interruption = false;  // tells "never" from "not asked"
 };
 

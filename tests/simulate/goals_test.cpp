@@ -1,0 +1,65 @@
+// What the default law is to reach, on fewer seeds than the scorecard has. docs/scorecard.md says how far it is beyond.
+#include <gtest/gtest.h>
+
+#include "sfsm/simulate/scorecard.h"
+
+namespace sfsm::simulate {
+namespace {
+
+constexpr int seeds = 9;
+
+Contestant the_default() {
+    const std::string name(law_names().front());
+    return {name, [=](const Course&) { return make_controller(name); }, false};
+}
+
+Row row_of(const char* scenario) {
+    ScorecardOptions options;
+    options.scenarios = {make_scenario(scenario)};
+    options.laws = {the_default()};
+    options.reference = the_default();
+    options.seeds = seeds;
+    return scorecard(options).front();
+}
+
+TEST(DefaultLaw, ReachesTheToysGoals) {
+    const Row row = row_of("toy");
+    EXPECT_LE(row.median.over_5pct, row.oracle_over_5pct + 0.01);
+    EXPECT_GE(row.median.quality, 0.985);
+    ASSERT_TRUE(row.median.settle_down);
+    ASSERT_TRUE(row.median.settle_up);
+    EXPECT_LE(*row.median.settle_down, 4);
+    EXPECT_LE(*row.median.settle_up, 10);
+    EXPECT_LE(row.median.reversals_per_1000, 2);
+}
+
+TEST(DefaultLaw, IsInBandOnTheFirstFrameOfWhatAForecastSays) {
+    for (const char* scenario : {"camera-cut", "crowd-pours-in", "target-step-forecast"}) {
+        const Row row = row_of(scenario);
+        EXPECT_EQ(row.median.cost_settle_down, 0) << scenario;
+        EXPECT_EQ(row.median.cost_settle_up, 0) << scenario;
+    }
+}
+
+TEST(DefaultLaw, ChangesNothingInTheQuiet) {
+    for (const char* scenario : {"quiet", "quiet-noisy", "quiet-forecast"}) {
+        EXPECT_EQ(row_of(scenario).median.changes_per_1000, 0) << scenario;
+    }
+}
+
+TEST(DefaultLaw, IsBackAfterEveryInterruption) {
+    for (const char* scenario : {"hitch", "pause", "loading"}) {
+        const Row row = row_of(scenario);
+        ASSERT_TRUE(row.median.recovery) << scenario;
+        EXPECT_LE(*row.median.recovery, 30) << scenario;
+    }
+}
+
+TEST(DefaultLaw, HoldsThePapersTargetsBetterThanThePaper) {
+    EXPECT_GE(row_of("paper-1").median.control_rate, 0.99);
+    EXPECT_GE(row_of("paper-2").median.control_rate, 0.99);
+    EXPECT_LE(row_of("paper-1").median.cost_settle_down, 3);
+}
+
+}  // namespace
+}  // namespace sfsm::simulate
