@@ -12,6 +12,7 @@
 #include <string>
 
 #include "apps/output.h"
+#include "apps/places.h"
 #include "apps/program.h"
 #include "apps/simulate.h"
 #include "sfsm/controller.h"
@@ -45,9 +46,8 @@ With --verify, failed is also what is not reproduced.)";
 void add_options(CLI::App& app, Options& options) {
     apps::describe(app, examples);
     auto* trace = app.add_option("TRACE", options.trace, "Trace of a run, as stadium --trace writes it");
-    const std::span<const std::string_view> names = sfsm::law_names();
-    const std::vector<std::string> laws(names.begin(), names.end());
-    auto* law = app.add_option("--law", options.law, "Law to feed; default: the trace's")->check(CLI::IsMember(laws));
+    auto* law = app.add_option("--law", options.law, "Law to feed; default: the trace's")
+                    ->check(apps::one_of(sfsm::law_names()));
     auto* target = app.add_option("--target-ms", options.target_ms,
                                   "Target, MS[,MS@FRAME ...] in milliseconds; default: the trace's, frame by frame");
     auto* csv = app.add_option("--csv", options.csv, "Write the decisions as a trace (- = stdout)");
@@ -134,9 +134,9 @@ void check(Options& options) {
     if (options.trace.empty()) {
         throw std::invalid_argument("found no TRACE, expected the trace of a run or --simulate");
     }
-    if (options.csv == "-" && options.summary == "-") {
-        throw std::invalid_argument("found --csv - and --summary -, expected at most one of them on standard output");
-    }
+    const apps::Place inputs[] = {{"TRACE", options.trace}};
+    const apps::Place outputs[] = {{"--csv", options.csv}, {"--summary", options.summary}};
+    apps::check_places(inputs, outputs);
     if (!options.target_ms.empty()) sfsm::TargetSchedule::parse(options.target_ms);
 }
 

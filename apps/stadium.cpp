@@ -1,11 +1,11 @@
 // The roaming stadium: one loop from a measured time to the next decision.
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
 
 #include "apps/free_camera.h"
+#include "apps/interrupt.h"
 #include "apps/program.h"
 #include "apps/progress.h"
 #include "apps/scene_clock.h"
@@ -29,18 +29,18 @@ namespace {
 constexpr std::int64_t headless_frames = 300;
 constexpr const char* presets[] = {"still", "close", "medium", "remote", "roam"};  // keys 1 to 5
 
-volatile std::sig_atomic_t interrupted = 0;
-
 // Where the pictures go: a window, or nowhere. Its context is current.
 struct Surface {
     std::unique_ptr<render::Window> window;
     std::unique_ptr<render::HeadlessContext> headless;
 
     explicit Surface(const StadiumOptions& options) {
-        if (!options.headless && render::Window::display_available())
+        std::string obstacle;
+        if (!options.headless && render::Window::display_available(&obstacle))
             window = std::make_unique<render::Window>("Grandstand", options.width, options.height);
         else
             headless = std::make_unique<render::HeadlessContext>();
+        if (!obstacle.empty()) std::fprintf(stderr, "stadium: %s; drawing without a window\n", obstacle.c_str());
     }
 };
 
@@ -84,7 +84,7 @@ public:
     void run(const StadiumOutputs& outputs) {
         const std::int64_t frames = options_.frames.value_or(surface_.window ? 0 : headless_frames);
         ProgressBar bar("Drawing");
-        for (std::int64_t frame = 0; (frames == 0 || frame < frames) && !interrupted; ++frame) {
+        for (std::int64_t frame = 0; (frames == 0 || frame < frames) && !interrupted(); ++frame) {
             if (surface_.window && !follow_user()) break;
             if (const auto time = draw(frame)) learn(*time);
             if (outputs.wants_picture(frame)) outputs.write_picture(frame, renderer_.read_image());
@@ -121,6 +121,7 @@ public:
 private:
     // Shaders compile at the first draw that needs them: draw both representations before any time is taken.
     void warm_up() {
+        throw_if_interrupted();
         const render::View view = view_now();
         const float range = selector_.survey(view, 0).range;
         for (const sfsm::State state : {sfsm::State::original, sfsm::State::points}) {
@@ -274,9 +275,11 @@ private:
 };
 
 void run(const StadiumOptions& options) {
+    finish_on_signal();
     StadiumOutputs outputs(options);
     Stadium stadium(options);
     stadium.run(outputs);
+    if (stadium.rows().empty()) throw_if_interrupted();
     outputs.finish(stadium.rows(), stadium.settings(),
                    outputs.wants_last_picture() ? stadium.picture() : render::Image{});
 }
@@ -286,7 +289,6 @@ void run(const StadiumOptions& options) {
 }  // namespace apps
 
 int main(int argc, char** argv) {
-    std::signal(SIGINT, [](int) { apps::interrupted = 1; });
     CLI::App app("A stadium of animated people, drawn as finely as the frame time allows.", "stadium");
     apps::StadiumOptions options;
     apps::add_stadium_options(app, options);

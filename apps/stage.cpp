@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "apps/interrupt.h"
 #include "apps/progress.h"
 #include "pointsample/gltf.h"
 #include "scene/cast.h"
@@ -33,6 +34,7 @@ pointsample::PointModel sample_points(const motion::Character& character, const 
     pointsample::SampleOptions options;
     options.count = point_count(character.mesh);
     options.seed = seed;
+    throw_if_interrupted();
     ProgressBar bar("Sampling " + character.name);
     return pointsample::sample(character.mesh, positions, normals, options, [&](double f) { bar(f); });
 }
@@ -40,6 +42,7 @@ pointsample::PointModel sample_points(const motion::Character& character, const 
 void add_character(Stage& stage, motion::Character character, std::uint64_t seed, std::size_t byte_budget) {
     scene::Casting casting = scene::cast(character);
     stage.points.push_back(sample_points(character, casting.clips, seed));
+    throw_if_interrupted();
     ProgressBar bar("Posing " + character.name);
     stage.poses.push_back(motion::bake_poses(character, casting.clips, stage.points.back().surface, byte_budget,
                                              [&](double f) { bar(f); }));
@@ -68,6 +71,7 @@ std::unique_ptr<Stage> build_stage(const std::vector<std::filesystem::path>& cha
     if (character_files.empty()) add_character(*stage, scene::make_person(), seed, pose_byte_budget);
     for (const std::filesystem::path& file : character_files)
         add_character(*stage, pointsample::load_gltf(file), seed, pose_byte_budget / character_files.size());
+    throw_if_interrupted();
     ProgressBar bar("Seating the crowd");
     stage->plan = scene::plan_stadium(people, scene::room_for(stage->cast, stage->poses));
     stage->structure = scene::build_structure(stage->plan);

@@ -29,6 +29,8 @@ TEST(StadiumDisplay, RunsInAWindow) {
 TEST(StadiumDisplay, DoesWithoutAWindowWhereTheDisplayDoesNotAnswer) {
     const tests::Outcome outcome = run_on("garbage", small + "--trace -");
     EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_TRUE(tests::one_line(outcome.err)) << outcome.err;
+    EXPECT_NE(outcome.err.find("garbage"), std::string::npos) << outcome.err;
     EXPECT_NE(outcome.out.find("\n19,"), std::string::npos) << "the last frame's row";
 }
 

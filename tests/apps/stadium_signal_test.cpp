@@ -34,17 +34,32 @@ protected:
 
 TEST_F(StadiumSignals, ARunThatIsInterruptedKeepsWhatItHas) {
     const std::string first_picture = make_pipe("frame000000.png");
-    tests::Process process(with({"--png-every", endless, "--png-dir", directory_ / "."}));
-    {
-        std::ifstream drawn(first_picture);  // opens when the first frame is drawn
-        process.signal(SIGINT);
-        drawn.ignore(std::numeric_limits<std::streamsize>::max());
+    for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+        tests::Process process(with({"--png-every", endless, "--png-dir", directory_ / "."}));
+        {
+            std::ifstream drawn(first_picture);  // opens when the first frame is drawn
+            process.signal(number);
+            drawn.ignore(std::numeric_limits<std::streamsize>::max());
+        }
+        EXPECT_EQ(process.wait(), 0);
+        EXPECT_EQ(directory_.names(), (std::vector<std::string>{"frame000000.png", "p.png", "s.json", "t.csv"}));
+        EXPECT_TRUE(tests::read_file(trace_).ends_with("\n"));
+        EXPECT_TRUE(tests::read_file(picture_).starts_with("\x89PNG"));
+        EXPECT_TRUE(tests::read_file(summary_).ends_with("}\n"));
+        for (const std::string& file : {trace_, picture_, summary_}) std::filesystem::remove(file);
     }
-    EXPECT_EQ(process.wait(), 0);
-    EXPECT_EQ(directory_.names(), (std::vector<std::string>{"frame000000.png", "p.png", "s.json", "t.csv"}));
-    EXPECT_TRUE(tests::read_file(trace_).ends_with("\n"));
-    EXPECT_TRUE(tests::read_file(picture_).starts_with("\x89PNG"));
-    EXPECT_TRUE(tests::read_file(summary_).ends_with("}\n"));
+}
+
+TEST_F(StadiumSignals, ASetUpThatIsInterruptedLeavesNothing) {
+    const std::string camera = make_pipe("camera.json");
+    tests::Process process(with({"--camera", camera}));
+    {
+        std::ofstream keys(camera);  // opens when the program reads its camera
+        process.signal(SIGINT);
+        keys << R"({"keys":[{"time_s":0,"position":[0,9,0],"target":[9,9,0],"fov_deg":50}]})";
+    }
+    EXPECT_EQ(process.wait(), 130);
+    EXPECT_EQ(directory_.names(), std::vector<std::string>{"camera.json"});
 }
 
 TEST_F(StadiumSignals, ASetUpThatIsKilledLeavesNothing) {
