@@ -25,7 +25,6 @@ constexpr double most_slope_change = 3;  // factor, by one step
 constexpr double bracket_margin = 0.1;   // of the bracket's width that a step keeps from its ends
 constexpr double whole = 0.995;          // detail from which all of it is shown
 constexpr double least_step = 0.001;     // of detail
-const double below_points = std::nextafter(detail_of_points, 0.0);
 
 double error_of(const Memory& m) {
     return m.noise / std::sqrt(static_cast<double>(std::max(m.dwell.times, 1)));
@@ -69,8 +68,8 @@ Cost present_cost(const Memory& m) {
     return {true, m.detail, m.dwell.level, error_of(m)};
 }
 
-// What the step before has taught, once. A difference within the noise teaches only where a clear one was to be
-// expected.
+// What the way from `before` to here has taught. A difference within the noise teaches only where a clear one was to be
+// expected; else `before` stays, until the steps from there add up to one.
 void learn_slope(Memory& m, const Constants& c) {
     const Cost before = m.before;
     const double moved = m.detail - before.detail;
@@ -135,7 +134,7 @@ double next_detail(const Memory& m, const Constants& c) {
     if (next > whole) next = 1;
     const bool is_return = m.state == s2 && next >= detail_of_points;
     const bool is_allowed = next >= detail_of_points + c.return_margin && m.since_points >= m.wait;
-    if (is_return && !is_allowed) next = below_points;
+    if (is_return && !is_allowed) next = std::nextafter(detail_of_points, 0.0);
     return std::clamp(next, 0.0, 1.0);
 }
 
@@ -178,7 +177,8 @@ void weigh(Memory& m, const Constants& c) {
     }
     narrow_bracket(m, c);
     remember_top(m, c);
-    m.next = m.is_trial && m.slow_end.is_known ? m.slow_end.detail : next_detail(m, c);
+    const bool is_retry = m.is_trial && m.verdict == Verdict::fast && m.slow_end.is_known;
+    m.next = is_retry ? m.slow_end.detail : next_detail(m, c);
     m.is_trial = false;
     m.quiet = 0;
 }

@@ -1,4 +1,5 @@
-// libFuzzer's entry: the same bytes into every law and rival.
+// libFuzzer's entry: the same bytes into every law and rival. With clang and -DGRANDSTAND_FUZZ=ON:
+// bin/controller_fuzz -max_total_time=60 CORPUS
 #include <cstdio>
 #include <cstdlib>
 
