@@ -15,7 +15,8 @@ constexpr double huber = 3;                              // standard deviations
 constexpr double small_step = 0.05;                      // relative
 constexpr int most_turns = 6;
 constexpr double gain_memory = 60;                      // [samples] that the gain is averaged over
-constexpr double price_walk = 0.0003;                   // 1 sigma per sample, in units of the first belief
+constexpr double price_walk = 0.0003;                   // 1 sigma per sample, in shares of price and belief
+constexpr double least_walker = 0.02;                   // in units of the first guess: cheaper prices walk as that
 constexpr double most_price = 1e4, least_fixed = 1e-4;  // in units of the first guess
 constexpr double disagreement = 8;                      // of two times, in sigmas of the noise
 constexpr double likeness = 2;                          // standard deviations within which a gain is one known before
@@ -134,8 +135,9 @@ void CostModel::forget() {
     const double walk = noise_ / gain_memory;
     spread_[0][0] += walk * walk;
     for (int i = 1; i < states_; ++i) {
-        const double most = belief_.spread[i - 1] * belief_.spread[i - 1];
-        if (spread_[i][i] < most) spread_[i][i] += price_walk * price_walk * most;
+        const double believed = belief_.spread[i - 1];
+        const double step = price_walk * believed * std::max(state_[i], least_walker);
+        if (spread_[i][i] < believed * believed) spread_[i][i] += step * step;
     }
 }
 

@@ -91,7 +91,9 @@ void PredictiveLaw::observe(const FrameSample& sample) {
             const Amounts all = amounts_of(people, triangles, points, updates);
             frame_amount_ = frame_share * (all.of[1] + all.of[2] + all.of[3] + all.of[4]);
         }
-        work_refresh_.observe(work_, amounts_of(people, triangles, points, updates), sample.ms, target_ms_);
+        const Amounts amounts = amounts_of(people, triangles, points, updates);
+        if (work_.is_ready()) foresight_.observe(sample, amounts, work_);
+        work_refresh_.observe(work_, amounts, sample.ms, target_ms_);
         if (sample.decision == probe_.decision) probe_.age = 0;
     }
     if (!has_forecast_ && range_ > 0)
@@ -112,6 +114,7 @@ Decision PredictiveLaw::decide(const FrameRequest& request) {
             decide_on_axis();
         }
     }
+    ++decisions_;
     return status_.decision;
 }
 
@@ -217,13 +220,20 @@ Amounts PredictiveLaw::amounts_of(double people, double triangles, double points
     return amounts;
 }
 
+Amounts PredictiveLaw::amounts_of(const Forecast& forecast, const Plan& plan) const {
+    return amounts_of(counted(forecast.people), bounded(plan.triangles), bounded(plan.points),
+                      bounded(plan.motion_updates));
+}
+
 Prediction PredictiveLaw::predicted(const Forecast& forecast, const Plan& plan) const {
-    return work_.predict(amounts_of(counted(forecast.people), bounded(plan.triangles), bounded(plan.points),
-                                    bounded(plan.motion_updates)));
+    Prediction prediction = work_.predict(amounts_of(forecast, plan));
+    prediction.log_ms += foresight_.bias();
+    return prediction;
 }
 
 WorkPrices PredictiveLaw::prices(const Forecast& forecast) const {
-    const auto price = [&](Price kind) { return status_.price_ms[static_cast<std::size_t>(kind)]; };
+    const double drawn = std::exp(foresight_.bias());  // for each that is foreseen
+    const auto price = [&](Price kind) { return drawn * status_.price_ms[static_cast<std::size_t>(kind)]; };
     return {price(Price::frame) + price(Price::person) * counted(forecast.people), price(Price::triangle),
             price(Price::point), price(Price::motion_update)};
 }
@@ -244,6 +254,7 @@ void PredictiveLaw::decide_from(const Forecast& forecast) {
         choose(forecast);
         status_.decision = kept_;
         probe(forecast);
+        foresight_.foresee(decisions_, status_.decision, amounts_of(forecast, plan_of(forecast, status_.decision)));
     }
 }
 

@@ -8,6 +8,7 @@
 #include "sfsm/ceiling.h"
 #include "sfsm/controller.h"
 #include "sfsm/cost_model.h"
+#include "sfsm/foresight.h"
 #include "sfsm/least_loss.h"
 #include "sfsm/refresh.h"
 
@@ -63,6 +64,7 @@ private:
     void choose(const Forecast& forecast);
     void probe(const Forecast& forecast);
     bool is_doubtful(const Forecast& forecast, const Plan& plan) const;
+    Amounts amounts_of(const Forecast& forecast, const Plan& plan) const;
     Prediction predicted(const Forecast& forecast, const Plan& plan) const;
     WorkPrices prices(const Forecast& forecast) const;
     bool is_kept(const Prediction& prediction, double aim_ms) const;
@@ -78,6 +80,8 @@ private:
     double frame_amount_ = 0;  // of work_'s first term; 0 until work has been seen
     double target_ms_ = 0, range_ = 0;
     bool has_forecast_ = false;
+    Foresight foresight_;
+    std::int64_t decisions_ = 0;
     Decision kept_;  // with a forecast; what probes come back to
     Probe probe_;
     int since_choice_ = 0;  // decisions since kept_ changed
