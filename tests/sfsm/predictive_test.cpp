@@ -332,6 +332,27 @@ TEST(PredictiveForecast, ThePapersTargetStepsAreMetOnTheirFirstFrame) {
     }
 }
 
+// A software renderer: a second for the triangles, a tenth of that for points, and motion costs nothing.
+TEST(PredictiveForecast, LeavesSlowTrianglesAfterTwoTimesAndForGood) {
+    Scene scene;
+    scene.prices = {20, 0, 4.75e-5, 1e-5, 0};
+    scene.people = 20'000;
+    scene.count();
+    constexpr int answers = 3;  // after the two that are waited for
+    for (int delay = 0; delay <= most_delay; ++delay) {
+        PredictiveLaw law;
+        const auto rows =
+            run(law, ForecastLoop{[&](std::int64_t) -> const Scene& { return scene; }, constant(60), 400, delay});
+        for (const TraceRow& row : rows) {
+            if (row.frame < delay + 2) continue;
+            ASSERT_EQ(row.decision.state, State::points) << row.frame;
+            if (row.frame < delay + 2 + answers * (delay + 1)) continue;
+            ASSERT_LT(row.frame_ms, 1.1 * 60) << "delay " << delay << " frame " << row.frame;
+            ASSERT_TRUE(row.frame < 60 || row.frame_ms > 0.9 * 60) << "delay " << delay << " frame " << row.frame;
+        }
+    }
+}
+
 TEST(PredictiveForecast, TakesTheWholePictureWhereThereIsTime) {
     const Scene scene = scene_of(2000);
     PredictiveLaw law;
