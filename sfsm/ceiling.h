@@ -5,9 +5,9 @@
 
 namespace sfsm {
 
-// Of one axis of detail in [0, 1] and predicted times. A rise that turns out slow within its trial is taken back at
-// once, to where it came from; the way between is then halved, with longer and longer waits. It is forgotten when the
-// load has fallen.
+// Of one axis of detail in [0, 1] and predicted times. A rise that turns out slow within its trial leaves a ceiling,
+// and falls to what is now believed in, the second time at least half way back. Below a ceiling, rises go half way up
+// to it, with longer and longer waits. It is forgotten after 1024 decisions, or when the load has fallen.
 class Ceiling {
 public:
     // What a rise from one detail to another that seems to have the time becomes. Equal to `from`: not now.

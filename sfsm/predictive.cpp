@@ -253,9 +253,13 @@ void PredictiveLaw::decide_from(const Forecast& forecast) {
     if (work_.is_ready()) {
         choose(forecast);
         status_.decision = kept_;
-        probe(forecast);
-        foresight_.foresee(decisions_, status_.decision, amounts_of(forecast, plan_of(forecast, status_.decision)));
     }
+    // L may have shrunk below what is kept.
+    Decision& decision = status_.decision;
+    if (decision.state != State::original) decision.motion_distance = std::min(decision.motion_distance, range_);
+    if (!work_.is_ready()) return;
+    probe(forecast);
+    foresight_.foresee(decisions_, decision, amounts_of(forecast, plan_of(forecast, decision)));
 }
 
 void PredictiveLaw::choose(const Forecast& forecast) {

@@ -21,9 +21,8 @@ struct PredictiveOptions {
     int probes = 2;                 // single frames spent on learning what motion costs, and as many on points, >= 0
     double band = 0.006;            // a decision is kept while predicted so near to its aim, relative, [0, 0.2]
     double band_sigmas = 2.6;       // or so many sigmas of the prediction, [0, 6]
-    double worthwhile =
-        0.25;             // out of reach, detail is kept while it costs no more than this share of the miss, [0, 1]
-    double better = 0.1;  // share of loss for which another decision of equal time is taken, [0, 1]
+    double worthwhile = 0.25;       // out of reach, detail is kept while it costs no more of the miss, [0, 1]
+    double better = 0.1;            // share of loss for which another decision of equal time is taken, [0, 1]
 
     // Throws std::invalid_argument naming the first broken rule.
     void validate() const;
