@@ -125,10 +125,26 @@ double CostModel::correct(const Seen& seen) {
     return standardised;
 }
 
+// A price below its least is moved there, and what is believed together with it moves along as far as they are
+// correlated: stopped alone, it would leave its share of the time to nobody.
 void CostModel::limit() {
     state_[0] = std::clamp(state_[0], -most_log_gain, most_log_gain);
-    state_[1] = std::clamp(state_[1], least_fixed, most_price);
-    for (int i = 2; i < states_; ++i) state_[i] = std::clamp(state_[i], 0.0, most_price);
+    const auto least = [this](int i) { return std::max(belief_.least[i - 1], i == 1 ? least_fixed : 0.0); };
+    for (int pass = 0; pass < belief_.terms; ++pass) {
+        int worst = 0;
+        double farthest = 0;  // standard deviations, squared
+        for (int i = 1; i < states_; ++i) {
+            const double lack = least(i) - state_[i];
+            if (lack <= 0 || lack * lack <= farthest * spread_[i][i]) continue;
+            worst = i;
+            farthest = lack * lack / spread_[i][i];
+        }
+        if (worst == 0 || !std::isfinite(farthest)) break;
+        const double step = (least(worst) - state_[worst]) / spread_[worst][worst];
+        for (int i = 1; i < states_; ++i) state_[i] += spread_[i][worst] * step;
+        state_[worst] = least(worst);
+    }
+    for (int i = 1; i < states_; ++i) state_[i] = std::clamp(state_[i], least(i), most_price);
 }
 
 void CostModel::forget() {

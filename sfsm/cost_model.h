@@ -29,6 +29,7 @@ struct PriceBelief {
     int terms = 1;                            // in [1, most_terms]
     std::array<double, most_terms> spread{};  // 1 sigma of each price, > 0
     double likeness = 0;                      // correlation of terms 1, 2, ... at a distance of one, [0, 1)
+    std::array<double, most_terms> least{};   // no price falls below, [0, 1): what surely isn't free
 };
 
 // An extended Kalman filter in the logarithm of time over [ln gain, prices], with Huber's weights, prices kept at 0 or

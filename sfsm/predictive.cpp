@@ -29,12 +29,12 @@ namespace {
 // What is believed of a renderer nobody has measured: work in pieces that each take about as long as a triangle.
 constexpr double person_pieces = 50, point_pieces = 2, update_pieces = 300;
 constexpr double frame_share = 0.05;  // of the first frame's pieces, for what is there in every frame
-constexpr PriceBelief work_belief{5, {1, 1, 0.6, 0.8, 2}, 0};
+constexpr PriceBelief work_belief{5, {1, 1, 0.6, 0.8, 2}, 0, {0, 0, 0.02, 0.05, 0}};
 
 // And of the axis: time grows in even steps of detail, to 1 + 1 / 0.3 = 4.3 times that of the coarsest.
 constexpr int detail_steps = 8;
 constexpr double axis_frame = 0.3;
-constexpr PriceBelief axis_belief{1 + detail_steps, {1, 1, 1, 1, 1, 1, 1, 1, 1}, 0.7};
+constexpr PriceBelief axis_belief{1 + detail_steps, {1, 1, 1, 1, 1, 1, 1, 1, 1}, 0.7, {}};
 
 constexpr double doubtful = 0.05;      // uncertainty of the way down that is worth a probe
 constexpr double probe_share = 0.5;    // of the motion that such a frame has
@@ -262,6 +262,31 @@ void PredictiveLaw::decide_from(const Forecast& forecast) {
     foresight_.foresee(decisions_, decision, amounts_of(forecast, plan_of(forecast, decision)));
 }
 
+// The finest plan that would meet the aim even if it took `caution` sigmas longer. What is known little of is known better
+// nearby: between the cheapest plan and `best` there is one that can be trusted, and drawing it teaches more.
+Plan PredictiveLaw::surely_fitting(const Forecast& forecast, const WorkPrices& prices, const Plan& best, double least_ms,
+                                   double aim_ms) const {
+    const auto longest_ms = [&](const Plan& plan) {
+        const Prediction prediction = predicted(forecast, plan);
+        return std::exp(prediction.log_ms + options_.caution * prediction.uncertainty);
+    };
+    if (least_ms >= aim_ms || longest_ms(best) <= aim_ms * (1 + options_.band)) return best;
+    double sure_ms = least_ms, unsure_ms = aim_ms;
+    Plan sure = least_loss_plan(forecast, range_, prices, sure_ms);
+    constexpr int halvings = 5;
+    for (int i = 0; i < halvings; ++i) {
+        const double middle_ms = std::sqrt(sure_ms * unsure_ms);
+        const Plan middle = least_loss_plan(forecast, range_, prices, middle_ms);
+        if (longest_ms(middle) <= aim_ms) {
+            sure = middle;
+            sure_ms = middle_ms;
+        } else {
+            unsure_ms = middle_ms;
+        }
+    }
+    return sure;
+}
+
 void PredictiveLaw::choose(const Forecast& forecast) {
     believe_prices();
     const WorkPrices prices = this->prices(forecast);
@@ -272,8 +297,7 @@ void PredictiveLaw::choose(const Forecast& forecast) {
     const Prediction prediction = predicted(forecast, now);
     believe(prediction, work_);
     if (is_kept(prediction, aim_ms) && !(best.loss_px < now.loss_px * (1 - options_.better))) return;
-    const double sure_ms = aim(work_, least_ms, predicted(forecast, best).uncertainty);
-    const Plan plan = least_loss_plan(forecast, range_, prices, sure_ms);
+    const Plan plan = surely_fitting(forecast, prices, best, least_ms, aim_ms);
     const Decision chosen = decision_of(plan);
     if (chosen == kept_) return;
     kept_ = chosen;

@@ -70,6 +70,8 @@ private:
     double aim(const CostModel& model, double least_ms, double uncertainty) const;
     void believe(const Prediction& prediction, const CostModel& model);
     void believe_prices();
+    Plan surely_fitting(const Forecast& forecast, const WorkPrices& prices, const Plan& best, double least_ms,
+                        double aim_ms) const;
     const char* reason_to_move(const Prediction& kept, double aim_ms, double least_ms) const;
 
     PredictiveOptions options_;
