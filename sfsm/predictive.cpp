@@ -28,7 +28,9 @@ namespace {
 
 // What is believed of a renderer nobody has measured: work in pieces that each take about as long as a triangle.
 constexpr double person_pieces = 50, point_pieces = 2, update_pieces = 300;
-constexpr double frame_share = 0.05;  // of the first frame's pieces, for what is there in every frame
+constexpr double first_piece_ms = 25e-6;  // until the first times are there: a slow machine's, since a second is long
+constexpr double first_slack = 1.5;       // over the least: the cheapest frame would teach too little of the others
+constexpr double frame_share = 0.05;      // of the first frame's pieces, for what is there in every frame
 constexpr PriceBelief work_belief{5, {1, 1, 0.6, 0.8, 2}, 0, {0, 0, 0.02, 0.05, 0}};
 
 // And of the axis: time grows in even steps of detail, to 1 + 1 / 0.3 = 4.3 times that of the coarsest.
@@ -253,6 +255,8 @@ void PredictiveLaw::decide_from(const Forecast& forecast) {
     if (work_.is_ready()) {
         choose(forecast);
         status_.decision = kept_;
+    } else if (work_.samples() == 0) {
+        status_.decision = kept_ = decision_of(first_guess(forecast));
     }
     // L may have shrunk below what is kept.
     Decision& decision = status_.decision;
@@ -262,10 +266,10 @@ void PredictiveLaw::decide_from(const Forecast& forecast) {
     foresight_.foresee(decisions_, decision, amounts_of(forecast, plan_of(forecast, decision)));
 }
 
-// The finest plan that would meet the aim even if it took `caution` sigmas longer. What is known little of is known better
-// nearby: between the cheapest plan and `best` there is one that can be trusted, and drawing it teaches more.
-Plan PredictiveLaw::surely_fitting(const Forecast& forecast, const WorkPrices& prices, const Plan& best, double least_ms,
-                                   double aim_ms) const {
+// The finest plan that would meet the aim even if it took `caution` sigmas longer. What is known little of is known
+// better nearby: between the cheapest plan and `best` there is one that can be trusted, and drawing it teaches more.
+Plan PredictiveLaw::surely_fitting(const Forecast& forecast, const WorkPrices& prices, const Plan& best,
+                                   double least_ms, double aim_ms) const {
     const auto longest_ms = [&](const Plan& plan) {
         const Prediction prediction = predicted(forecast, plan);
         return std::exp(prediction.log_ms + options_.caution * prediction.uncertainty);
@@ -285,6 +289,14 @@ Plan PredictiveLaw::surely_fitting(const Forecast& forecast, const WorkPrices& p
         }
     }
     return sure;
+}
+
+// Nothing has been timed yet: better two coarse frames on a fast machine than two of a second each on a slow one.
+Plan PredictiveLaw::first_guess(const Forecast& forecast) const {
+    const WorkPrices guess{first_piece_ms * person_pieces * counted(forecast.people), first_piece_ms,
+                           first_piece_ms * point_pieces, first_piece_ms * update_pieces};
+    const double least_ms = plan_ms(cheapest_plan(forecast, range_), guess);
+    return least_loss_plan(forecast, range_, guess, std::max(target_ms_, first_slack * least_ms));
 }
 
 void PredictiveLaw::choose(const Forecast& forecast) {

@@ -72,6 +72,7 @@ private:
     void believe_prices();
     Plan surely_fitting(const Forecast& forecast, const WorkPrices& prices, const Plan& best, double least_ms,
                         double aim_ms) const;
+    Plan first_guess(const Forecast& forecast) const;
     const char* reason_to_move(const Prediction& kept, double aim_ms, double least_ms) const;
 
     PredictiveOptions options_;
