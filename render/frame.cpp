@@ -53,10 +53,10 @@ Renderer::Renderer(const scene::StaticMesh& structure, const scene::StadiumPlan&
       structure_program_(build_program("structure.vert", "structure.frag")),
       ground_program_(build_program("structure.vert", "structure.frag", {"GROUND"})),
       sky_program_(build_program("sky.vert", "sky.frag")),
-      frame_block_(make_buffer()),
-      instances_(make_buffer()),
-      commands_(make_buffer()),
-      empty_array_(make_vertex_array()),
+      frame_block_(Buffer::create()),
+      instances_(Buffer::create()),
+      commands_(Buffer::create()),
+      empty_array_(VertexArray::create()),
       oval_(plan.oval.half_straight, plan.oval.radius, plan.stand_offset, 0.0f) {
     glNamedBufferStorage(frame_block_.name(), sizeof(FrameBlock), nullptr, GL_DYNAMIC_STORAGE_BIT);
     for (const FigureAssets& assets : figures) figures_.push_back(upload_figure(assets));
@@ -73,9 +73,9 @@ void Renderer::resize(int width, int height) {
                                  " pixels, expected sides of at most " + std::to_string(largest));
     width_ = width;
     height_ = height;
-    color_ = make_renderbuffer();
-    depth_ = make_renderbuffer();
-    target_ = make_framebuffer();
+    color_ = Renderbuffer::create();
+    depth_ = Renderbuffer::create();
+    target_ = Framebuffer::create();
     glNamedRenderbufferStorage(color_.name(), GL_RGBA8, width, height);
     glNamedRenderbufferStorage(depth_.name(), GL_DEPTH_COMPONENT32F, width, height);
     glNamedFramebufferRenderbuffer(target_.name(), GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color_.name());

@@ -13,7 +13,13 @@ template <typename Traits>
 class Object {
 public:
     Object() = default;
-    explicit Object(GLuint name) : name_(name) {}
+    // A new one; textures and queries want their target.
+    template <typename... Target>
+    static Object create(Target... target) {
+        Object object;
+        Traits::create(&object.name_, target...);
+        return object;
+    }
     Object(Object&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
     Object& operator=(Object&& other) noexcept {
         std::swap(name_, other.name_);
@@ -29,25 +35,32 @@ private:
 };
 
 struct BufferTraits {
+    static void create(GLuint* name) { glCreateBuffers(1, name); }
     static void destroy(GLuint name) { glDeleteBuffers(1, &name); }
 };
 struct VertexArrayTraits {
+    static void create(GLuint* name) { glCreateVertexArrays(1, name); }
     static void destroy(GLuint name) { glDeleteVertexArrays(1, &name); }
 };
 struct TextureTraits {
+    static void create(GLuint* name, GLenum target) { glCreateTextures(target, 1, name); }
     static void destroy(GLuint name) { glDeleteTextures(1, &name); }
 };
 struct RenderbufferTraits {
+    static void create(GLuint* name) { glCreateRenderbuffers(1, name); }
     static void destroy(GLuint name) { glDeleteRenderbuffers(1, &name); }
 };
 struct FramebufferTraits {
+    static void create(GLuint* name) { glCreateFramebuffers(1, name); }
     static void destroy(GLuint name) { glDeleteFramebuffers(1, &name); }
 };
-struct ProgramTraits {
-    static void destroy(GLuint name) { glDeleteProgram(name); }
-};
 struct QueryTraits {
+    static void create(GLuint* name, GLenum target) { glCreateQueries(target, 1, name); }
     static void destroy(GLuint name) { glDeleteQueries(1, &name); }
+};
+struct ProgramTraits {
+    static void create(GLuint* name) { *name = glCreateProgram(); }
+    static void destroy(GLuint name) { glDeleteProgram(name); }
 };
 
 using Buffer = Object<BufferTraits>;
@@ -55,39 +68,7 @@ using VertexArray = Object<VertexArrayTraits>;
 using TextureObject = Object<TextureTraits>;
 using Renderbuffer = Object<RenderbufferTraits>;
 using Framebuffer = Object<FramebufferTraits>;
-using Program = Object<ProgramTraits>;
 using Query = Object<QueryTraits>;
-
-// Direct-state-access constructors.
-inline Buffer make_buffer() {
-    GLuint name = 0;
-    glCreateBuffers(1, &name);
-    return Buffer(name);
-}
-inline VertexArray make_vertex_array() {
-    GLuint name = 0;
-    glCreateVertexArrays(1, &name);
-    return VertexArray(name);
-}
-inline TextureObject make_texture(GLenum target) {
-    GLuint name = 0;
-    glCreateTextures(target, 1, &name);
-    return TextureObject(name);
-}
-inline Renderbuffer make_renderbuffer() {
-    GLuint name = 0;
-    glCreateRenderbuffers(1, &name);
-    return Renderbuffer(name);
-}
-inline Framebuffer make_framebuffer() {
-    GLuint name = 0;
-    glCreateFramebuffers(1, &name);
-    return Framebuffer(name);
-}
-inline Query make_query(GLenum target) {
-    GLuint name = 0;
-    glCreateQueries(target, 1, &name);
-    return Query(name);
-}
+using Program = Object<ProgramTraits>;
 
 }  // namespace render

@@ -47,7 +47,7 @@ Program build_program(std::string_view vertex, std::string_view fragment,
     for (std::string_view define : defines) preamble += "#define " + std::string(define) + "\n";
     preamble += shader_source("layout.h");
 
-    Program program(glCreateProgram());
+    Program program = Program::create();
     const std::string line_one = "\n#line 1\n";
     attach_stage(program.name(), GL_VERTEX_SHADER, vertex,
                  preamble + std::string(shader_source("light.glsl")) + line_one);

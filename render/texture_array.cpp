@@ -42,7 +42,7 @@ TextureObject make_texture_array(std::span<const motion::Texture> textures) {
         side = std::max({side, static_cast<unsigned>(texture.width), static_cast<unsigned>(texture.height)});
     const int size = static_cast<int>(std::min(std::bit_ceil(side), largest_side));
 
-    TextureObject array = make_texture(GL_TEXTURE_2D_ARRAY);
+    TextureObject array = TextureObject::create(GL_TEXTURE_2D_ARRAY);
     const int levels = std::bit_width(static_cast<unsigned>(size));
     glTextureStorage3D(array.name(), levels, GL_RGBA8, size, size, static_cast<GLsizei>(textures.size()));
     for (std::size_t layer = 0; layer < textures.size(); ++layer) {

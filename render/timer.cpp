@@ -7,7 +7,7 @@ namespace render {
 
 FrameTimer::FrameTimer(const Device& device) : software_(device.software) {
     if (software_) return;
-    for (Slot& slot : ring_) slot.query = make_query(GL_TIME_ELAPSED);
+    for (Slot& slot : ring_) slot.query = Query::create(GL_TIME_ELAPSED);
 }
 
 void FrameTimer::begin(std::int64_t frame) {

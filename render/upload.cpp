@@ -34,7 +34,7 @@ constexpr GLuint instance_binding = 1;
 
 template <typename T>
 Buffer upload(const std::vector<T>& data) {
-    Buffer buffer = make_buffer();
+    Buffer buffer = Buffer::create();
     if (data.empty()) return buffer;  // GL has no storage of no bytes
     glNamedBufferStorage(buffer.name(), static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(), 0);
     return buffer;
@@ -119,7 +119,7 @@ void add_integer(GLuint array, int attribute, int size, GLenum type, std::size_t
 
 // Reads people: `vertices` a pose at a time, `instances` a person at a time.
 VertexArray make_person_array(const Buffer& vertices, const Buffer& instances) {
-    VertexArray array = make_vertex_array();
+    VertexArray array = VertexArray::create();
     const GLuint a = array.name();
     glVertexArrayVertexBuffer(a, vertex_binding, vertices.name(), 0, sizeof(BakedVertex));
     glVertexArrayVertexBuffer(a, instance_binding, instances.name(), 0, sizeof(Instance));
@@ -174,7 +174,7 @@ Renderer::FigureObjects Renderer::upload_figure(const FigureAssets& assets) cons
     const float silhouette = 0.25f * assets.poses->area;  // a quarter of the surface, as of any convex body
     const FigureBlock block{glm::vec4(box.min, figure.double_sided ? 1.0f : 0.0f),
                             glm::vec4(box.size(), std::sqrt(silhouette))};
-    figure.box = make_buffer();
+    figure.box = Buffer::create();
     glNamedBufferStorage(figure.box.name(), sizeof block, &block, 0);
     return figure;
 }
@@ -197,7 +197,7 @@ void Renderer::upload_structure(const scene::StaticMesh& structure) {
     }
     structure_vertices_ = upload(structure.vertices);
     structure_indices_ = upload(indices);
-    structure_array_ = make_vertex_array();
+    structure_array_ = VertexArray::create();
     const GLuint a = structure_array_.name();
     glVertexArrayVertexBuffer(a, vertex_binding, structure_vertices_.name(), 0, sizeof(scene::StaticVertex));
     glVertexArrayElementBuffer(a, structure_indices_.name());
