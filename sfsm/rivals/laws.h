@@ -14,6 +14,7 @@ std::unique_ptr<Controller> make_hdrp();
 std::unique_ptr<Controller> make_intel();
 std::unique_ptr<Controller> make_minetest();
 std::unique_ptr<Controller> make_robust_mpc();
+std::unique_ptr<Controller> make_second_life();
 std::unique_ptr<Controller> make_unity_adaptive();
 std::unique_ptr<Controller> make_unity_sample();
 std::unique_ptr<Controller> make_unreal_like();

@@ -26,6 +26,7 @@ constexpr std::array rivals = {
     Rival{"unity-adaptive", make_unity_adaptive},
     Rival{"woof", make_woof},
     Rival{"drei", make_drei},
+    Rival{"second-life", make_second_life},
     Rival{"robust-mpc", make_robust_mpc},
 };
 

@@ -136,6 +136,16 @@ TEST(UnityAdaptive, LowersFastAfterFourSeconds) {
     EXPECT_NEAR(Driven("unity-adaptive").after(417, 1.2), 0.9, exact);
 }
 
+TEST(SecondLife, ComesTenMetresNearerAtOnceAndBackAfterThreePeriods) {
+    constexpr double step = 10.0 / 256;
+    Driven life("second-life");
+    EXPECT_EQ(life.after(49, 1.2), 1);
+    EXPECT_NEAR(life.after(1, 1.2), 1 - step, exact);
+    EXPECT_NEAR(life.after(149, 0.8), 1 - step, exact);
+    EXPECT_EQ(life.after(1, 0.8), 1);
+    EXPECT_NEAR(Driven("second-life").after(5000, 0.97), 1, exact) << "too little to spare for anything";
+}
+
 TEST(Woof, TakesAStepForEachRatioExceeded) {
     const double goal = (target - 1.25) / target;
     EXPECT_EQ(Driven("woof").after(14, 2), 1);
