@@ -28,7 +28,7 @@ namespace {
 
 // What is believed of a renderer nobody has measured: work in pieces that each take about as long as a triangle.
 constexpr double person_pieces = 50, point_pieces = 2, update_pieces = 300;
-constexpr double first_piece_ms = 25e-6;  // until the first times are there: a slow machine's, since a second is long
+constexpr double first_piece_ms = 30e-6;  // until the first times are there: a slow machine's, since a second is long
 constexpr double first_slack = 1.5;       // over the least: the cheapest frame would teach too little of the others
 constexpr double frame_share = 0.05;      // of the first frame's pieces, for what is there in every frame
 constexpr PriceBelief work_belief{5, {1, 1, 0.6, 0.8, 2}, 0, {0, 0, 0.02, 0.05, 0}};
