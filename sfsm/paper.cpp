@@ -244,8 +244,7 @@ void PaperLaw::observe(const FrameSample& sample) {
         return;
     }
     status_.last_ms = sample.ms;
-    const auto drawn_end = drawn_.begin() + static_cast<std::ptrdiff_t>(drawn_count_);
-    if (std::find(drawn_.begin(), drawn_end, sample.decision) == drawn_end) return;
+    if (!drawn_.contains(sample.decision)) return;
     answer_ = sample;
     is_answered_ = is_new_ = true;
 }
@@ -261,7 +260,7 @@ Decision PaperLaw::decide(const FrameRequest& request) {
     }
     const bool is_ready = memory_.target_ms > 0 && memory_.range > 0;
     if (is_ready && (is_new_ || (is_answered_ && has_new_target))) step();
-    drawn_with(decision());
+    drawn_.add(status_.decision = decision());
     return status_.decision;
 }
 
@@ -278,7 +277,7 @@ void PaperLaw::step() {
     status_.reason = row->reason;
     if (memory_.state == before.state && memory_.distance == before.distance && memory_.splat == before.splat) return;
     memory_.fast_times = 0;
-    drawn_count_ = 0;
+    drawn_.clear();
     is_answered_ = false;
 }
 
@@ -288,15 +287,6 @@ Decision PaperLaw::decision() const {
     // L may be so small that its share is 0.
     const double nearest = std::max(constants_.nearest_share * m.range, std::numeric_limits<double>::denorm_min());
     return {m.state, std::clamp(m.distance, nearest, m.range), m.splat};
-}
-
-void PaperLaw::drawn_with(const Decision& decision) {
-    if (drawn_count_ == 0 || decision != status_.decision) {
-        std::rotate(drawn_.begin(), drawn_.end() - 1, drawn_.end());
-        drawn_.front() = decision;
-        drawn_count_ = std::min(drawn_count_ + 1, drawn_.size());
-    }
-    status_.decision = decision;
 }
 
 }  // namespace sfsm

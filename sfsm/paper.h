@@ -8,6 +8,7 @@
 #include <span>
 
 #include "sfsm/controller.h"
+#include "sfsm/drawn.h"
 
 namespace sfsm {
 
@@ -89,7 +90,7 @@ struct PaperTransition {
 std::span<const PaperTransition> paper_transitions();
 
 // Takes one step of the law for each time drawn with its newest decision: a time that arrives late and answers an
-// older one is paired with that one, so nothing is stepped twice for one measurement (samples up to 16 distinct
+// older one is paired with that one, so nothing is stepped twice for one measurement (samples up to 32 distinct
 // decisions late). A change of target is judged at once by the newest time. In state 0 the decision is Decision{}
 // (D infinite); in the others D is in [L / 6, L]; until a usable target and range have been seen it is state 0.
 class PaperLaw final : public Controller {
@@ -104,13 +105,11 @@ public:
 private:
     void step();
     Decision decision() const;
-    void drawn_with(const Decision& decision);
 
     PaperConstants constants_;
     PaperMemory memory_;
     Status status_;
-    std::array<Decision, 16> drawn_{};  // the distinct decisions given since the last step (L may move them)
-    std::size_t drawn_count_ = 0;
+    DrawnDecisions drawn_;      // since the last step
     FrameSample answer_;        // the newest sample of one of them
     bool is_answered_ = false;  // there is one
     bool is_new_ = false;       // and no step has been taken on it

@@ -391,8 +391,7 @@ void SafeguardedLaw::observe(const FrameSample& sample) {
         return;
     }
     status_.last_ms = sample.ms;
-    const auto drawn_end = drawn_.begin() + static_cast<std::ptrdiff_t>(drawn_count_);
-    if (std::find(drawn_.begin(), drawn_end, sample.decision) == drawn_end) return;
+    if (!drawn_.contains(sample.decision)) return;
     const double level = std::log(sample.ms);
     if (has_last_) {
         std::rotate(changes_.begin(), changes_.end() - 1, changes_.end());
@@ -420,7 +419,7 @@ Decision SafeguardedLaw::decide(const FrameRequest& request) {
     if (is_usable(request.target_ms) && request.target_ms != status_.target_ms) retarget(request.target_ms);
     if (is_new_ && status_.target_ms > 0 && range_ > 0) step();
     is_new_ = false;
-    if (range_ > 0) drawn_with(decision_at(memory_.detail, range_));
+    if (range_ > 0) drawn_.add(status_.decision = decision_at(memory_.detail, range_));
     return status_.decision;
 }
 
@@ -445,17 +444,8 @@ void SafeguardedLaw::step() {
     memory_.state = row->to;
     status_.reason = row->reason;
     if (memory_.detail == detail) return;
-    drawn_count_ = 0;
+    drawn_.clear();
     has_last_ = false;
-}
-
-void SafeguardedLaw::drawn_with(const Decision& decision) {
-    if (drawn_count_ == 0 || decision != status_.decision) {
-        std::rotate(drawn_.begin(), drawn_.end() - 1, drawn_.end());
-        drawn_.front() = decision;
-        drawn_count_ = std::min(drawn_count_ + 1, drawn_.size());
-    }
-    status_.decision = decision;
 }
 
 }  // namespace sfsm

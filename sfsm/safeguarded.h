@@ -8,6 +8,7 @@
 #include <span>
 
 #include "sfsm/controller.h"
+#include "sfsm/drawn.h"
 
 namespace sfsm {
 
@@ -105,7 +106,6 @@ public:
 private:
     void retarget(double target_ms);
     void step();
-    void drawn_with(const Decision& decision);
     double robust_noise() const;
 
     SafeguardedConstants constants_;
@@ -116,9 +116,8 @@ private:
     std::size_t change_count_ = 8;      // the first ones are assumed
     double last_level_ = 0;             // log of the newest time of the present detail
     bool has_last_ = false;             // there is one
-    std::array<Decision, 32> drawn_{};  // the distinct decisions of the present detail (L may move them)
-    std::size_t drawn_count_ = 0;
-    bool is_new_ = false;  // a time or a target to judge
+    DrawnDecisions drawn_;              // since the last step
+    bool is_new_ = false;               // a time or a target to judge
 };
 
 }  // namespace sfsm

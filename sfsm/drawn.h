@@ -1,0 +1,32 @@
+// The decisions that a law's present answer has been given as: more than one, since L moves D. A time that belongs to
+// none of them is late, and tells of an older answer.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "sfsm/decision.h"
+
+namespace sfsm {
+
+class DrawnDecisions {
+public:
+    void add(const Decision& decision) {
+        if (count_ > 0 && ring_.front() == decision) return;
+        std::rotate(ring_.begin(), ring_.end() - 1, ring_.end());
+        ring_.front() = decision;
+        count_ = std::min(count_ + 1, ring_.size());
+    }
+    bool contains(const Decision& decision) const {
+        const auto end = ring_.begin() + static_cast<std::ptrdiff_t>(count_);
+        return std::find(ring_.begin(), end, decision) != end;
+    }
+    void clear() { count_ = 0; }
+
+private:
+    std::array<Decision, 32> ring_{};  // newest first; times come at most 16 frames late
+    std::size_t count_ = 0;
+};
+
+}  // namespace sfsm
