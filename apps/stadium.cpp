@@ -20,7 +20,9 @@
 #include "render/window.h"
 #include "scene/camera_path.h"
 #include "sfsm/controller.h"
+#include "sfsm/detail.h"
 #include "sfsm/number_text.h"
+#include "sfsm/paper.h"
 
 namespace apps {
 
@@ -49,9 +51,10 @@ sfsm::Decision fixed_decision(const StadiumOptions& options, sfsm::State state, 
     constexpr double default_splat_size = 2;  // [px]
     sfsm::Decision decision;
     decision.state = state;
-    if (state == sfsm::State::slowed) decision.motion_distance = options.motion_distance.value_or(5.0 / 6.0 * range);
+    if (state == sfsm::State::slowed)
+        decision.motion_distance = options.motion_distance.value_or(sfsm::PaperConstants{}.first_share * range);
     if (state == sfsm::State::points) {
-        decision.motion_distance = options.motion_distance.value_or(2.0 / 3.0 * range);
+        decision.motion_distance = options.motion_distance.value_or(sfsm::detail_of_points * range);
         decision.splat_size = options.splat_size.value_or(default_splat_size);
     }
     return decision;

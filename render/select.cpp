@@ -110,7 +110,7 @@ void Selector::find_visible(std::size_t block_index) {
         const std::size_t character = crowd_.character[person];
         const Figure& figure = figures_[character];
         const Kind& kind = kinds_[character];
-        const float scale = crowd_.height[person] / figure.poses->rest_height;
+        const float scale = scale_of(person);
         const scene::Placement now = scene::place(crowd_, person, *figure.member, tick_);
         const glm::vec3 center = view_.relative(now.position) + scale * kind.center;
         const bool hidden = cull && !sphere_visible(view_, center, scale * kind.radius);
@@ -124,8 +124,7 @@ void Selector::forecast() {
     forecaster_.begin(survey_.range);
     for_each_visible([&](std::size_t person) {
         const std::size_t character = crowd_.character[person];
-        const float scale = crowd_.height[person] / figures_[character].poses->rest_height;
-        const float speed_px = kinds_[character].speed * scale * view_.pixels_per_metre(depth_[person]);
+        const float speed_px = kinds_[character].speed * scale_of(person) * view_.pixels_per_metre(depth_[person]);
         forecaster_.add(character, depth_[person], points_at_unit_splat(person), speed_px);
     });
     survey_.forecast = forecaster_.finish(options_.theta);
@@ -142,11 +141,13 @@ const Selection& Selector::select(const sfsm::Decision& decision, std::int64_t l
     return selection_;
 }
 
+float Selector::scale_of(std::size_t person) const {
+    return crowd_.height[person] / figures_[crowd_.character[person]].poses->rest_height;
+}
+
 float Selector::points_at_unit_splat(std::size_t person) const {
-    const Figure& figure = figures_[crowd_.character[person]];
-    const float scale = crowd_.height[person] / figure.poses->rest_height;
-    const float pixels = scale * view_.pixels_per_metre(depth_[person]);
-    return options_.density * figure.area * pixels * pixels;
+    const float pixels = scale_of(person) * view_.pixels_per_metre(depth_[person]);
+    return options_.density * figures_[crowd_.character[person]].area * pixels * pixels;
 }
 
 std::uint32_t Selector::level_of(std::size_t character, float points) const {
@@ -177,8 +178,8 @@ Selector::Candidate Selector::consider(std::size_t person, const sfsm::Decision&
     candidate.bucket =
         kinds_[character].first_bucket + level * static_cast<std::uint32_t>(figure.poses->pose_count) + pose;
     candidate.moved = due > last_tick;
-    candidate.instance = {view_.relative(placement.position), crowd_.height[person] / figure.poses->rest_height,
-                          snorm16(std::sin(placement.yaw)), snorm16(std::cos(placement.yaw)), crowd_.palette[person]};
+    candidate.instance = {view_.relative(placement.position), scale_of(person), snorm16(std::sin(placement.yaw)),
+                          snorm16(std::cos(placement.yaw)), crowd_.palette[person]};
     return candidate;
 }
 

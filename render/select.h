@@ -96,6 +96,7 @@ private:
     void forecast();
     Candidate consider(std::size_t person, const sfsm::Decision& decision, std::int64_t last_tick) const;
     std::uint32_t level_of(std::size_t character, float points) const;
+    float scale_of(std::size_t person) const;  // [m / model unit]
     float points_at_unit_splat(std::size_t person) const;
     void gather();
     void batch(std::uint32_t character);

@@ -5,6 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "sfsm/usable.h"
+
 namespace sfsm {
 
 void PaperConstants::validate() const {
@@ -220,10 +222,6 @@ void remember(Memory& m, const Constants& c, const FrameSample& sample) {
         m.since_return = std::min(m.since_return + 1, c.trial);
     }
     m.fast_times = is_finest(m, c) && is_well_below(m, c) ? m.fast_times + 1 : 0;
-}
-
-bool is_usable(double value) {
-    return std::isfinite(value) && value > 0;
 }
 
 }  // namespace

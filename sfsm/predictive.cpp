@@ -7,6 +7,7 @@
 #include <string>
 
 #include "sfsm/detail.h"
+#include "sfsm/usable.h"
 
 namespace sfsm {
 
@@ -50,10 +51,6 @@ constexpr double much_over = 1.03;  // t at which a rise has failed
 constexpr double out_of_reach_band = 0.05;  // over the aim, relative
 
 constexpr double most_count = 1e15;  // of any work
-
-bool is_usable(double value) {
-    return std::isfinite(value) && value > 0;
-}
 
 double bounded(double count) {
     return std::clamp(count, 0.0, most_count);

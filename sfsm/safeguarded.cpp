@@ -6,6 +6,7 @@
 #include <string>
 
 #include "sfsm/detail.h"
+#include "sfsm/usable.h"
 
 namespace sfsm {
 namespace {
@@ -343,10 +344,6 @@ void count_time(Memory& m, const Constants& c) {
     m.since_return = std::min(m.since_return + 1, c.trial);
     m.since_points = std::min(m.since_points + 1, c.longest_wait);
     m.held_times = std::min(m.held_times + 1, c.longest_wait);
-}
-
-bool is_usable(double value) {
-    return std::isfinite(value) && value > 0;
 }
 
 }  // namespace

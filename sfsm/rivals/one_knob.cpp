@@ -4,16 +4,13 @@
 #include <cmath>
 
 #include "sfsm/detail.h"
+#include "sfsm/usable.h"
 
 namespace sfsm {
 namespace {
 
 constexpr double shortest_target = 1e-6, longest_target = 1e9;  // [ms]
 constexpr double largest_load = 1000;
-
-bool is_usable(double value) {
-    return std::isfinite(value) && value > 0;
-}
 
 }  // namespace
 
