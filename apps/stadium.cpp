@@ -149,6 +149,7 @@ private:
         row.range = survey.range;
         row.decision = options_.state ? fixed_decision(options_, *options_.state, row.range)
                                       : controller_->decide({row.target_ms, row.range, &survey.forecast});
+        if (!options_.state) row.predicted_ms = controller_->status().predicted_ms;
         if (!options_.trace.empty()) {
             row.motion.assign(survey.forecast.motion.begin(), survey.forecast.motion.end());
             row.splats.assign(survey.forecast.splats.begin(), survey.forecast.splats.end());

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <istream>
+#include <limits>
+#include <optional>
 #include <ostream>
 #include <stdexcept>
 #include <string_view>
@@ -35,7 +37,7 @@ constexpr std::array<std::string_view, 13> column_names = {
 constexpr std::string_view header_line =
     "frame,target_ms,frame_ms,cpu_ms,gpu_ms,state,motion_distance_m,splat_px,visible,triangles,points,motion_updates,"
     "range_m";
-constexpr std::string_view motion_name = "motion_steps", splat_name = "splat_steps";
+constexpr std::string_view predicted_name = "predicted_ms", motion_name = "motion_steps", splat_name = "splat_steps";
 
 // Where in a file we are: all that an error needs to say.
 struct Place {
@@ -82,7 +84,7 @@ std::vector<std::string_view> split(std::string_view line, char separator = ',')
 // Where each of our columns stands in this file.
 struct Header {
     std::array<std::size_t, column_names.size()> position{};
-    std::optional<std::size_t> motion, splats;  // the forecast's
+    std::optional<std::size_t> predicted, motion, splats;
     std::size_t fields = 0;
 };
 
@@ -91,6 +93,7 @@ Header parse_header(std::string_view line, const Place& place) {
     Header header;
     header.fields = found.size();
     for (std::size_t i = 0; i < found.size(); ++i) {
+        if (found[i] == predicted_name) header.predicted = i;
         if (found[i] == motion_name) header.motion = i;
         if (found[i] == splat_name) header.splats = i;
     }
@@ -127,6 +130,14 @@ struct Fields {
 
     double time(Column column) const {
         return text(column).empty() ? std::numeric_limits<double>::quiet_NaN() : number(column);
+    }
+
+    double prediction() const {
+        constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+        if (!header.predicted || fields[*header.predicted].empty()) return unknown;
+        if (const std::optional<double> value = parse_double(fields[*header.predicted])) return *value;
+        place.fail(std::string(predicted_name) + " is '" + std::string(fields[*header.predicted]) +
+                   "', expected a number");
     }
 
     std::int64_t count(Column column) const {
@@ -201,6 +212,7 @@ TraceRow parse_row(const Fields& fields) {
     row.decision = fields.decision();
     row.work = {fields.count(people), fields.count(triangles), fields.count(points), fields.count(updates)};
     row.range = fields.number(range);
+    row.predicted_ms = fields.prediction();
     fields.steps<3>(fields.header.motion, motion_name, [&](const std::array<double, 3>& v) {
         row.motion.push_back({v[0], whole(v[1]), v[2]});
     });
@@ -214,7 +226,7 @@ TraceRow parse_row(const Fields& fields) {
 
 void write_trace_header(std::ostream& out, const std::map<std::string, std::string>& settings) {
     for (const auto& [key, value] : settings) out << "# " << one_line(key) << '=' << one_line(value) << '\n';
-    out << header_line << ',' << motion_name << ',' << splat_name << '\n';
+    out << header_line << ',' << predicted_name << ',' << motion_name << ',' << splat_name << '\n';
 }
 
 void write_trace_row(std::ostream& out, const TraceRow& row) {
@@ -228,6 +240,7 @@ void write_trace_row(std::ostream& out, const TraceRow& row) {
         append_number(line += ',', count);
     }
     append_number(line += ',', row.range);
+    append_number(line += ',', row.predicted_ms);
     append_steps(line += ',', row);
     out << (line += '\n');
 }

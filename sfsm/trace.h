@@ -3,6 +3,7 @@
 #pragma once
 
 #include <iosfwd>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -18,8 +19,9 @@ struct TraceRow {
     double frame_ms = 0;  // what the controller holds at the target; NaN = not measured
     double cpu_ms = 0;    // to record the frame
     double gpu_ms = 0;    // NaN where the driver cannot say
-    Decision decision;    // the one this frame was drawn with
-    double range = 0;     // L [m] given to the controller before this frame
+    double predicted_ms = std::numeric_limits<double>::quiet_NaN();  // Status's, of this frame; NaN: the law can't say
+    Decision decision;                                               // the one this frame was drawn with
+    double range = 0;                                                // L [m] given to the controller before this frame
     Work work;
 
     // The forecast given to the controller before this frame; both empty if there was none.
@@ -36,7 +38,7 @@ struct Trace {
 };
 
 // A forecast's steps are in the last two columns, steps parted by blanks and their numbers by colons, in the order of
-// their fields; readers may do without. The header has at least
+// their fields; readers may do without them and predicted_ms. The header has at least
 // frame,target_ms,frame_ms,cpu_ms,gpu_ms,state,motion_distance_m,splat_px,visible,triangles,points,motion_updates.
 void write_trace_header(std::ostream& out, const std::map<std::string, std::string>& settings);
 void write_trace_row(std::ostream& out, const TraceRow& row);

@@ -43,6 +43,7 @@ double run(const Course& course, Controller& law, const RunOptions& options, std
         if (arrived >= 0) law.observe(sample);
         outcome.decision = law.decide(request);
         law_us += now() - begin_us;
+        outcome.predicted_ms = law.status().predicted_ms;
         outcome.cost_ms = plant.cost_ms(frame, outcome.decision);
         outcome.ms = measured_ms(scenario, options.seed, frame, outcome.cost_ms);
         outcome.detail = plant.detail(frame, outcome.decision);

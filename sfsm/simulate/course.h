@@ -28,6 +28,7 @@ struct Outcome {
     double ms = 0;         // measured
     double cost_ms = 0;    // free of noise
     double detail = 0;
+    double predicted_ms = 0;  // what the law expected; NaN: it can't say
     Decision decision;
 };
 

@@ -120,7 +120,7 @@ TEST(Trace, EmptyTimesAreNotMeasuredAndInfiniteDistanceIsInf) {
     EXPECT_TRUE(std::isnan(trace.rows[0].frame_ms) && std::isnan(trace.rows[0].cpu_ms) &&
                 std::isnan(trace.rows[0].gpu_ms));
     EXPECT_EQ(trace.rows[0].decision, Decision{});
-    EXPECT_NE(write(trace).find("7,16.6,nan,nan,nan,0,inf,0,1,2,3,4,200,,\n"), std::string::npos);
+    EXPECT_NE(write(trace).find("7,16.6,nan,nan,nan,0,inf,0,1,2,3,4,200,nan,,\n"), std::string::npos);
 }
 
 TEST(Trace, DamagedForecastIsNamedByItsLine) {

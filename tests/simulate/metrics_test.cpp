@@ -32,7 +32,7 @@ using Written = std::function<void(std::int64_t frame, Outcome& outcome)>;
 std::vector<Outcome> outcomes_of(const Course& course, const Written& write) {
     std::vector<Outcome> outcomes;
     for (std::int64_t frame = 0; frame < course.scenario.frames; ++frame) {
-        Outcome outcome{target_ms, target_ms, target_ms, best_detail, {}};
+        Outcome outcome{target_ms, target_ms, target_ms, best_detail, {}, {}};
         write(frame, outcome);
         outcomes.push_back(outcome);
     }

@@ -1,0 +1,46 @@
+// A recorded run of any of the tools people use, as one of our traces: our own traces, PresentMon 1.x, 2.x and the
+// current console columns, OCAT, CapFrameX CSV and JSON, FrameView, MangoHud (per frame and sampled), FRAPS.
+// docs/recordings.md lists what each one's columns become and how their quirks are read.
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "sfsm/trace.h"
+
+namespace sfsm {
+
+// What one swap chain of one process presented.
+struct Stream {
+    std::string process, process_id, swap_chain;  // empty where the tool doesn't say
+    std::int64_t frames = 0;
+    double seconds = 0;  // sum of the frame times
+};
+
+struct Recording {
+    std::string format;  // "trace", "PresentMon 1.x", "OCAT", ...
+
+    // One of ours as it is. Else of the chosen stream: frames counted from 0, frame_ms, and cpu_ms and gpu_ms [ms]
+    // where the tool tells them; NaN: not told. Target (NaN), range (0), decisions and work are those of a row that has
+    // none. Settings: format, process, process_id, swap_chain, and what the file says of itself before its header.
+    Trace trace;
+
+    std::vector<Stream> streams;     // all in the file, most frames first; one nameless where the tool has no processes
+    std::size_t chosen = 0;          // of them
+    std::vector<std::string> notes;  // what was left out or put together, a line each, with counts and line numbers
+    bool has_work() const { return format == "trace"; }
+};
+
+struct RecordingOptions {
+    // Which stream: a process name (whole, any case), a process id or a swap chain, as the file has it; of several that
+    // match the one with most frames. Empty: of all.
+    std::string process;
+};
+
+// Reads in pieces: memory grows with the frames, not with the bytes. Columns are found by name. Throws
+// std::runtime_error: one line with `name`, the line number, what was found and what was expected.
+Recording read_recording(std::istream& in, const std::string& name, const RecordingOptions& options = {});
+
+}  // namespace sfsm
