@@ -98,6 +98,7 @@ sfsm::TraceRow trace_row(const sim::Plant& plant, std::int64_t frame, const sim:
     row.decision = outcome.decision;
     row.range = plant.range(frame);
     row.work = plant.work(frame, row.decision);
+    row.predicted_ms = outcome.predicted_ms;
     if (const sfsm::Forecast* forecast = plant.forecast(frame)) {
         row.motion.assign(forecast->motion.begin(), forecast->motion.end());
         row.splats.assign(forecast->splats.begin(), forecast->splats.end());

@@ -111,7 +111,7 @@ TEST(Trace, TheLocaleOfAStreamChangesNothing) {
 TEST(Trace, TheHeaderBeginsWithTheContract) {
     const std::string text = write({});
     const std::string contract(header, std::strlen(header) - 1);
-    EXPECT_EQ(text, contract + ",motion_steps,splat_steps\n");
+    EXPECT_EQ(text, contract + ",predicted_ms,motion_steps,splat_steps\n");
 }
 
 TEST(Trace, EmptyTimesAreNotMeasuredAndInfiniteDistanceIsInf) {
