@@ -1,4 +1,5 @@
 // The roaming stadium: one loop from a measured time to the next decision.
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -82,6 +83,7 @@ public:
           width_(options.width),
           height_(options.height) {
         warm_up();
+        stage_->crowd.filled_tick = std::llround(options.pour_in * motion::ticks_per_second);
     }
 
     void run(const StadiumOutputs& outputs) {
@@ -112,6 +114,7 @@ public:
             {"delay", std::to_string(timer_.delay())},
             {"target_ms", options_.target.text()},
             {"people", std::to_string(options_.people)},
+            {"pour_in_s", sfsm::number_text(options_.pour_in)},
             {"character", character_names()},
             {"camera", options_.camera + (was_steered_ ? " (then steered)" : "")},
             {"size", std::to_string(width_) + "x" + std::to_string(height_)},

@@ -59,6 +59,8 @@ void add_scene_options(CLI::App& app, StadiumOptions& options) {
     app.add_option("--people", options.people, "How many people")
         ->check(whole_number(1, 1'000'000))
         ->capture_default_str();
+    app.add_option("--pour-in", options.pour_in, "Seconds in which the people come in (default: all are there)")
+        ->check(number_over(0, 1e6));
     app.add_option("--character", options.characters, "glTF or GLB file to fill the stadium with; several mix");
     app.add_option("--camera", options.camera, "still, close, medium, remote, roam or a FILE.json with keys")
         ->capture_default_str();

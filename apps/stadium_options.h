@@ -22,6 +22,7 @@ struct StadiumOptions {
     std::optional<sfsm::State> state;       // empty: the law decides
     std::optional<double> splat_size;       // [px] of a fixed state 2
     std::optional<double> motion_distance;  // [m] of a fixed state 1 or 2
+    double pour_in = 0;                     // [s] in which people come in; 0: all are there
     std::string camera = "roam";            // a preset or a path file
     std::optional<std::int64_t> frames;     // empty: 300 without a window, until it is closed with one
     int width = 1280, height = 720;         // [px]

@@ -113,7 +113,8 @@ void Selector::find_visible(std::size_t block_index) {
         const float scale = scale_of(person);
         const scene::Placement now = scene::place(crowd_, person, *figure.member, tick_);
         const glm::vec3 center = view_.relative(now.position) + scale * kind.center;
-        const bool hidden = cull && !sphere_visible(view_, center, scale * kind.radius);
+        const bool hidden =
+            (cull && !sphere_visible(view_, center, scale * kind.radius)) || !scene::has_arrived(crowd_, person, tick_);
         depth_[person] = hidden ? unseen : std::max(view_.depth(center), near_plane);
     }
 }

@@ -12,7 +12,7 @@ namespace scene {
 namespace {
 
 // What a random number is for.
-enum Salt : std::uint64_t { salt_phase = 101, salt_act, salt_mood, salt_wave };
+enum Salt : std::uint64_t { salt_phase = 101, salt_act, salt_mood, salt_wave, salt_arrival };
 
 std::int64_t floor_div(std::int64_t a, std::int64_t b) {
     return a / b - (a % b < 0 ? 1 : 0);
@@ -135,6 +135,12 @@ Action act(const Crowd& crowd, std::size_t person, const CastMember& member, con
     const std::uint32_t own = crowd.hash[person];
     if (is_athlete(role) || !acts_alternate(acts, poses)) return keep_acting(acts, poses, own, tick);
     return alternate(acts, poses, own, lap_fraction(crowd.oval, crowd.position[person]), role == Role::spectator, tick);
+}
+
+bool has_arrived(const Crowd& crowd, std::size_t person, std::int64_t tick) {
+    if (tick >= crowd.filled_tick) return true;
+    const double share = static_cast<double>(tick) / static_cast<double>(crowd.filled_tick);
+    return unit(hash(crowd.hash[person], salt_arrival)) < share;
 }
 
 }  // namespace scene

@@ -74,6 +74,14 @@ struct Reader {
         return out.str();
     }
 
+    // An optional member, false where it is missing.
+    bool flag(const Json& object, const char* name, const std::string& place) const {
+        const auto found = object.find(name);
+        if (found == object.end()) return false;
+        if (!found->is_boolean()) fail(place + name, quote(*found), "true or false");
+        return found->get<bool>();
+    }
+
     glm::dvec3 point(const Json& value, const std::string& place) const {
         if (!value.is_array() || value.size() != 3) fail(place, quote(value), "[x, y, z] in metres");
         glm::dvec3 result;
@@ -84,7 +92,7 @@ struct Reader {
     }
 
     CameraKey key(const Json& value, const std::string& place) const {
-        check_members(value, place, {"time_s", "position", "target", "fov_deg"});
+        check_members(value, place, {"time_s", "position", "target", "fov_deg", "cut"});
         CameraKey key;
         key.time = number(member(value, "time_s", place), place + ".time_s", 0, max_time);
         key.pose.position = point(member(value, "position", place), place + ".position");
@@ -96,6 +104,7 @@ struct Reader {
         const double angle = number(fov, place + ".fov_deg", min_fov, max_fov);
         if (angle == min_fov || angle == max_fov) fail(place + ".fov_deg", quote(fov), "a number between 1 and 170");
         key.pose.fov_y = angle * std::numbers::pi / 180;
+        key.cut = flag(value, "cut", place + ".");
         return key;
     }
 
@@ -112,6 +121,7 @@ struct Reader {
                 fail(place + ".time_s", text_of(next.time),
                      "more than the previous key's " + text_of(result.back().time));
             }
+            if (result.empty() && next.cut) fail(place + ".cut", "true", "false: nothing is before the first key");
             result.push_back(next);
         }
         return result;
@@ -161,10 +171,7 @@ CameraPath load_camera_path(const std::filesystem::path& path) {
     }
     reader.check_members(root, "", {"closed", "keys"});
     CameraPath result;
-    if (root.contains("closed")) {
-        if (!root["closed"].is_boolean()) reader.fail("closed", Reader::quote(root["closed"]), "true or false");
-        result.closed = root["closed"].get<bool>();
-    }
+    result.closed = reader.flag(root, "closed", "");
     result.keys = reader.keys(reader.member(root, "keys", ""));
     if (result.closed) reader.check_seam(result);
     return result;

@@ -16,22 +16,19 @@ T hermite(const T& from, const T& from_velocity, const T& to, const T& to_veloci
            (u3 - u2) * span * to_velocity;
 }
 
-// The keys around key `i` whose chord is its velocity; a closed path's ends have neighbours across the seam.
-struct Neighbours {
-    const CameraKey& before;
-    const CameraKey& after;
-    double span;  // [s] between them
-};
-
-Neighbours neighbours(const CameraPath& path, std::size_t i) {
+// Velocity of a field at key `i` [1/s]: the chord between its neighbours in the same shot. A closed path's ends have
+// neighbours across the seam.
+template <typename T>
+T velocity(const CameraPath& path, std::size_t i, T CameraPose::*field) {
     const std::vector<CameraKey>& keys = path.keys;
     const std::size_t last = keys.size() - 1;
-    if (path.closed && (i == 0 || i == last)) {
-        return {keys[last - 1], keys[1], keys[last].time - keys[last - 1].time + keys[1].time - keys[0].time};
-    }
-    const CameraKey& before = keys[i == 0 ? 0 : i - 1];
-    const CameraKey& after = keys[i == last ? last : i + 1];
-    return {before, after, after.time - before.time};
+    const bool at_seam = path.closed && (i == 0 || i == last);
+    const bool begins = at_seam ? keys[last].cut : i == 0 || keys[i].cut;
+    const bool ends = at_seam ? keys[1].cut : i == last || keys[i + 1].cut;
+    const std::size_t arrives = at_seam ? last : i, leaves = at_seam ? 0 : i;
+    const std::size_t before = begins ? arrives : arrives - 1, after = ends ? leaves : leaves + 1;
+    const double span = keys[arrives].time - keys[before].time + keys[after].time - keys[leaves].time;
+    return span > 0 ? (keys[after].pose.*field - keys[before].pose.*field) / span : T(0);
 }
 
 // The key from which `time` leads to the next.
@@ -56,10 +53,10 @@ CameraPose CameraPath::at(double time) const {
     const std::size_t i = key_before(keys, time);
     const CameraKey &from = keys[i], &to = keys[i + 1];
     const double span = to.time - from.time, u = (time - from.time) / span;
-    const Neighbours a = neighbours(*this, i), b = neighbours(*this, i + 1);
+    if (to.cut) return u < 1 ? from.pose : to.pose;
     const auto blend = [&](auto CameraPose::*field) {
-        return hermite(from.pose.*field, (a.after.pose.*field - a.before.pose.*field) / a.span, to.pose.*field,
-                       (b.after.pose.*field - b.before.pose.*field) / b.span, u, span);
+        return hermite(from.pose.*field, velocity(*this, i, field), to.pose.*field, velocity(*this, i + 1, field), u,
+                       span);
     };
     CameraPose pose{blend(&CameraPose::position), blend(&CameraPose::target), blend(&CameraPose::fov_y)};
     pose.fov_y =

@@ -19,9 +19,10 @@ struct CameraPose {
 struct CameraKey {
     double time = 0;  // [s]
     CameraPose pose;
+    bool cut = false;  // the camera stays where the previous key has it, and jumps here; never of the first key
 };
 
-// Catmull-Rom through the keys; one key = a still camera. A closed path runs from the last key's time
+// Catmull-Rom through the keys between two cuts; one key = a still camera. A closed path runs from the last key's time
 // back to the first. Where position and target would meet between keys, the camera looks along z.
 struct CameraPath {
     std::vector<CameraKey> keys;  // ascending times, >= 1
@@ -38,7 +39,8 @@ struct CameraPath {
 CameraPath preset_path(const std::string& name, const StadiumPlan& plan);
 bool is_preset(const std::string& name);
 
-// {"closed": bool = false, "keys": [{"time_s": t, "position": [x,y,z], "target": [x,y,z], "fov_deg": 50}, ...]}
+// {"closed": bool = false, "keys": [{"time_s": t, "position": [x,y,z], "target": [x,y,z], "fov_deg": 50,
+//                                     "cut": bool = false}, ...]}
 // Throws std::runtime_error with one line naming the file and the first broken rule.
 CameraPath load_camera_path(const std::filesystem::path& path);
 

@@ -53,7 +53,8 @@ struct Crowd {
     std::vector<std::uint32_t> hash;  // the person's own random bits: phase, stagger, acts
     std::vector<Palette> palette;
     std::vector<CrowdBlock> blocks;
-    Oval oval;  // the track
+    Oval oval;                     // the track
+    std::int64_t filled_tick = 0;  // from when everybody is there; before, people come in, each at a tick of their own
 
     std::size_t size() const { return position.size(); }
 };
@@ -78,6 +79,9 @@ Crowd populate(const StadiumPlan& plan, std::int64_t people, std::span<const Cas
                std::span<const motion::PoseTable> poses, std::uint64_t seed);
 
 Placement place(const Crowd& crowd, std::size_t person, const CastMember& member, std::int64_t tick);
+
+// Whether `person` has come in by `tick`.
+bool has_arrived(const Crowd& crowd, std::size_t person, std::int64_t tick);
 
 // What `person` does at `tick` of the scene: phase, choice between acts (cheering travels around the stadium as a
 // wave now and then), all from hash and tick.

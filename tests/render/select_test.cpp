@@ -214,6 +214,21 @@ TEST(Forecast, CountsWhatSelectionDraws) {
     }
 }
 
+TEST(Selection, HasOnlyThoseWhoHaveArrived) {
+    scene::Crowd crowd = small_scene().crowd;
+    crowd.filled_tick = 1000;
+    Selector selector(crowd, small_scene().figures());
+    const render::View view = view_of("remote");
+    std::int64_t before = 0;
+    for (const std::int64_t tick : {0, 1, 250, 500, 1000}) {
+        EXPECT_GE(selector.survey(view, tick).forecast.people, before);
+        before = selector.survey(view, tick).forecast.people;
+        EXPECT_EQ(selector.select({}, tick - 1).work.people, before);
+        EXPECT_TRUE(tick > 0 || before == 0);
+    }
+    EXPECT_EQ(before, select_once(view, {}).work.people);
+}
+
 TEST(Forecast, CountsWhoMovesOnAverage) {
     Selector selector(small_scene().crowd, small_scene().figures());
     const sfsm::Forecast forecast = selector.survey(view_of("still"), 100).forecast;

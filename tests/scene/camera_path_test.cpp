@@ -61,6 +61,35 @@ TEST(CameraPath, OneKeyIsAStill) {
     for (const double time : {-1.0, 3.0, 1e6}) EXPECT_LT(difference(path.at(time), path.keys.front().pose), 1e-12);
 }
 
+TEST(CameraPath, ACutHoldsThePoseAndJumps) {
+    CameraPath path = square_path();
+    path.keys[2].cut = true;
+    for (const double time : {2.0, 2.5, 3.999}) EXPECT_LT(difference(path.at(time), path.keys[1].pose), 1e-9);
+    EXPECT_LT(difference(path.at(4), path.keys[2].pose), 1e-9);
+}
+
+// The shot before a cut is as if nothing came after it, and the shot after as if nothing had been before.
+TEST(CameraPath, NothingIsBlendedAcrossACut) {
+    CameraPath path = square_path();
+    path.closed = false;
+    path.keys[2].cut = true;
+    const CameraPath before{{path.keys.begin(), path.keys.begin() + 2}};
+    CameraPath after{{path.keys.begin() + 2, path.keys.end()}};
+    after.keys.front().cut = false;
+    for (double time = 0; time < 4; time += 0.05) EXPECT_LT(difference(path.at(time), before.at(time)), 1e-9);
+    for (double time = 4; time < 9; time += 0.05) EXPECT_LT(difference(path.at(time), after.at(time)), 1e-9);
+}
+
+TEST(CameraPath, AllCutsAreASlideShow) {
+    CameraPath path = square_path();
+    for (std::size_t i = 1; i < path.keys.size(); ++i) path.keys[i].cut = true;
+    for (std::size_t i = 0; i + 1 < path.keys.size(); ++i) {
+        const double late = 0.999 * path.keys[i + 1].time + 0.001 * path.keys[i].time;
+        EXPECT_LT(difference(path.at(late), path.keys[i].pose), 1e-9);
+        EXPECT_LT(difference(path.at(late + 7), path.keys[i].pose), 1e-9);
+    }
+}
+
 TEST(CameraPath, FieldOfViewStaysBetweenItsKeys) {
     const CameraPath path = square_path();
     for (double time = 1; time < 8; time += 0.01) {
@@ -294,6 +323,17 @@ TEST_F(CameraFile, LoadsWhatItSays) {
     EXPECT_EQ(loaded.keys[1].pose.position, glm::dvec3(-1, 2, 3));
     EXPECT_EQ(loaded.keys[1].pose.target, glm::dvec3(4, 5, 6));
     EXPECT_NEAR(loaded.keys[1].pose.fov_y, 60.5 * degree, 1e-12);
+}
+
+TEST_F(CameraFile, LoadsCuts) {
+    const std::string rest = R"("position": [1, 2, 3], "target": [4, 5, 6], "fov_deg": 50)";
+    write(R"({"keys": [{"time_s": 0, )" + rest + R"(}, {"time_s": 1, "cut": true, )" + rest + "}]}");
+    EXPECT_FALSE(scene::load_camera_path(path).keys.at(0).cut);
+    EXPECT_TRUE(scene::load_camera_path(path).keys.at(1).cut);
+    write(R"({"keys": [{"time_s": 0, "cut": true, )" + rest + "}]}");
+    EXPECT_NE(complaint().find("keys[0].cut: found true"), std::string::npos) << complaint();
+    write(R"({"keys": [{"time_s": 0, "cut": 1, )" + rest + "}]}");
+    EXPECT_NE(complaint().find("keys[0].cut: found 1, expected true or false"), std::string::npos) << complaint();
 }
 
 TEST_F(CameraFile, IsOpenUnlessItSaysOtherwise) {

@@ -412,4 +412,24 @@ TEST(Act, MostAreCalmBetweenWaves) {
     EXPECT_LT(excited, all / 2);
 }
 
+TEST(Arrival, GrowsEvenlyFromNobodyToEverybodyAndNobodyLeaves) {
+    const FakeCast cast = tests::sitters();
+    Crowd crowd = tests::populate(cast, 20000);
+    crowd.filled_tick = 1000;
+    std::vector<bool> there(crowd.size(), false);
+    for (std::int64_t tick = 0; tick <= 1000; tick += 50) {
+        std::int64_t count = 0;
+        for (std::size_t person = 0; person < crowd.size(); ++person) {
+            const bool is_there = scene::has_arrived(crowd, person, tick);
+            EXPECT_TRUE(is_there || !there[person]);
+            there[person] = is_there;
+            count += is_there;
+        }
+        constexpr double five_sigma = 5 * 71;  // of a binomial count at a half
+        EXPECT_NEAR(static_cast<double>(count), 20.0 * static_cast<double>(tick), five_sigma);
+        EXPECT_TRUE(tick > 0 || count == 0);
+        EXPECT_TRUE(tick < 1000 || count == 20000);
+    }
+}
+
 }  // namespace
