@@ -23,7 +23,7 @@ inline const char* const simulate_examples =
   replay --simulate all --json docs/scorecard.json      of all of them: a minute or two
   replay --simulate paper-1 --laws paper --csv run.csv  and the first run as a trace)";
 
-// All but --csv, which is replay's too. Gives the option that asks for this mode.
+// All but --csv and --json, which are replay's too. Gives the option that asks for this mode.
 CLI::Option* add_simulate_options(CLI::App& app, SimulateOptions& options);
 
 // Throws std::invalid_argument naming what there is.

@@ -108,6 +108,7 @@ void add_output_options(CLI::App& app, StadiumOptions& options) {
         ->check(whole_number(1, 10'000'000));
     app.add_option("--png-dir", options.png_directory, "Directory for --png-every; made if missing");
     app.add_option("--summary", options.summary, "Write the run's figures to this JSON file; - = stdout");
+    app.add_option("--report", options.report, "Write the run as a page to look at to this HTML file; - = stdout");
 }
 
 }  // namespace
@@ -136,7 +137,10 @@ void check(const StadiumOptions& options) {
     std::vector<Place> inputs;
     for (const std::filesystem::path& file : options.characters) inputs.push_back({"--character", file.string()});
     if (!scene::is_preset(options.camera)) inputs.push_back({"--camera", options.camera});
-    const Place outputs[] = {{"--trace", options.trace}, {"--png", options.png}, {"--summary", options.summary}};
+    const Place outputs[] = {{"--trace", options.trace},
+                             {"--png", options.png},
+                             {"--summary", options.summary},
+                             {"--report", options.report}};
     check_places(inputs, outputs);
 }
 

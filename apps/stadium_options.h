@@ -17,7 +17,7 @@ namespace apps {
 struct StadiumOptions {
     std::int64_t people = 20000;  // [1, 1'000'000]
     std::vector<std::filesystem::path> characters;
-    sfsm::TargetSchedule target = sfsm::TargetSchedule::parse("16.6");
+    sfsm::TargetSchedule target = sfsm::TargetSchedule::parse(sfsm::default_target);
     std::string law = std::string(sfsm::law_names().front());
     std::optional<sfsm::State> state;       // empty: the law decides
     std::optional<double> splat_size;       // [px] of a fixed state 2
@@ -29,8 +29,8 @@ struct StadiumOptions {
     std::uint64_t seed = 1;
     bool headless = false;
     bool fixed_step = false;
-    std::string trace, png, png_directory, summary;  // paths; empty: none; "-": stdout
-    std::int64_t png_every = 0;                      // [frames] 0: none
+    std::string trace, png, png_directory, summary, report;  // paths; empty: none; "-": stdout
+    std::int64_t png_every = 0;                              // [frames] 0: none
 };
 
 // Adds the options to `app`; parsing fills `options`, which must stay where it is.

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "sfsm/report/report.h"
 #include "sfsm/summary.h"
 
 namespace apps {
@@ -51,6 +52,18 @@ void print_summary(const sfsm::Summary& summary, const std::map<std::string, std
                 static_cast<long long>(summary.state_frames[2]));
 }
 
+sfsm::Report report_of(std::span<const sfsm::TraceRow> rows, const std::map<std::string, std::string>& settings) {
+    sfsm::Report report;
+    report.title = settings.at("people") + " people on " + settings.at("device");
+    report.facts.assign(settings.begin(), settings.end());
+    sfsm::ReportRun& run = report.runs.emplace_back();
+    const std::string& state = settings.at("state");
+    run.name = state == "auto" ? settings.at("law") : "state " + state;
+    for (const sfsm::TraceRow& row : rows) run.frames.push_back(sfsm::report_frame(row));
+    run.scores = sfsm::time_scores(run.frames);
+    return report;
+}
+
 }  // namespace
 
 void write_png(const std::string& path, const render::Image& image) {
@@ -63,6 +76,7 @@ StadiumOutputs::StadiumOutputs(const StadiumOptions& options) : options_(options
     if (!options.trace.empty()) trace_.emplace(options.trace);
     if (!options.png.empty()) png_.emplace(options.png);
     if (!options.summary.empty()) summary_.emplace(options.summary);
+    if (!options.report.empty()) report_.emplace(options.report);
     if (options.png_every > 0) check_directory(options.png_directory);
 }
 
@@ -95,7 +109,12 @@ void StadiumOutputs::finish(std::span<const sfsm::TraceRow> rows, const std::map
         summary_->stream() << sfsm::summary_json(summary, settings);
         summary_->commit();
     }
-    const bool stdout_taken = options_.trace == "-" || options_.png == "-" || options_.summary == "-";
+    if (report_) {
+        sfsm::write_report_html(report_->stream(), report_of(rows, settings));
+        report_->commit();
+    }
+    const bool stdout_taken =
+        options_.trace == "-" || options_.png == "-" || options_.summary == "-" || options_.report == "-";
     if (!stdout_taken) print_summary(summary, settings);
 }
 

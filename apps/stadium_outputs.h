@@ -28,13 +28,13 @@ public:
     // Whether finish() needs the last picture.
     bool wants_last_picture() const { return png_.has_value(); }
 
-    // Puts trace, picture and summary in their places; a summary to read goes to stdout if no file does.
+    // Puts trace, picture, summary and report in their places; a summary to read goes to stdout if no file does.
     void finish(std::span<const sfsm::TraceRow> rows, const std::map<std::string, std::string>& settings,
                 const render::Image& last_picture);
 
 private:
     StadiumOptions options_;
-    std::optional<OutputFile> trace_, png_, summary_;
+    std::optional<OutputFile> trace_, png_, summary_, report_;
 };
 
 }  // namespace apps

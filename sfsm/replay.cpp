@@ -9,20 +9,22 @@
 
 namespace sfsm {
 
-std::vector<Decision> replay_decisions(Controller& law, std::span<const TraceRow> rows, int delay) {
+std::vector<Replayed> replay(Controller& law, std::span<const TraceRow> rows, int delay) {
     assert(delay >= 0 && delay <= max_delay);
-    std::vector<Decision> decisions;
-    decisions.reserve(rows.size());
+    std::vector<Replayed> replayed;
+    replayed.reserve(rows.size());
     std::size_t arrived = 0;
     for (const TraceRow& row : rows) {
-        for (; arrived < decisions.size() && rows[arrived].frame < row.frame - delay; ++arrived) {
+        for (; arrived < replayed.size() && rows[arrived].frame < row.frame - delay; ++arrived) {
             const TraceRow& past = rows[arrived];
-            if (!std::isnan(past.frame_ms)) law.observe({past.frame, past.frame_ms, decisions[arrived], past.work});
+            if (std::isnan(past.frame_ms)) continue;
+            law.observe({past.frame, past.frame_ms, replayed[arrived].decision, past.work});
         }
         const Forecast forecast = row.forecast();
-        decisions.push_back(law.decide({row.target_ms, row.range, row.has_forecast() ? &forecast : nullptr}));
+        const Decision decision = law.decide({row.target_ms, row.range, row.has_forecast() ? &forecast : nullptr});
+        replayed.push_back({decision, law.status().predicted_ms});
     }
-    return decisions;
+    return replayed;
 }
 
 int trace_delay(const Trace& trace) {
@@ -36,14 +38,14 @@ int trace_delay(const Trace& trace) {
     return static_cast<int>(*delay);
 }
 
-std::optional<Difference> first_difference(std::span<const TraceRow> rows, std::span<const Decision> decisions) {
-    assert(rows.size() == decisions.size());
+std::optional<Difference> first_difference(std::span<const TraceRow> rows, std::span<const Replayed> replayed) {
+    assert(rows.size() == replayed.size());
     const auto same_bits = [](double a, double b) {
         return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
     };
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const Decision& recorded = rows[i].decision;
-        const Decision& decided = decisions[i];
+        const Decision& decided = replayed[i].decision;
         const Difference fields[] = {
             {rows[i].frame, "state", static_cast<double>(recorded.state), static_cast<double>(decided.state)},
             {rows[i].frame, "motion_distance_m", recorded.motion_distance, decided.motion_distance},

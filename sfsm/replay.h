@@ -15,10 +15,16 @@ namespace sfsm {
 // The latest that times may arrive [frames].
 inline constexpr int max_delay = 16;
 
-// The decisions `law` takes at the rows' targets and ranges, when before the decision of frame k the times of the
-// frames up to k - 1 - delay have arrived. Open loop: each recorded time is taken for the time of the law's own
-// decision of that frame. A row without a time is not observed. One decision a row; `delay` in [0, max_delay].
-std::vector<Decision> replay_decisions(Controller& law, std::span<const TraceRow> rows, int delay);
+// What a law did before a frame.
+struct Replayed {
+    Decision decision;
+    double predicted_ms = 0;  // Status's
+};
+
+// What `law` does at the rows' targets and ranges, when before the decision of frame k the times of the frames up to
+// k - 1 - delay have arrived. Open loop: each recorded time is taken for the time of the law's own decision of that
+// frame. A row without a time is not observed. One element a row; `delay` in [0, max_delay].
+std::vector<Replayed> replay(Controller& law, std::span<const TraceRow> rows, int delay);
 
 // The setting `delay`; 0 where the trace has none. Throws std::runtime_error when it is not a number in [0, max_delay].
 int trace_delay(const Trace& trace);
@@ -30,6 +36,6 @@ struct Difference {
     double recorded = 0;
     double decided = 0;
 };
-std::optional<Difference> first_difference(std::span<const TraceRow> rows, std::span<const Decision> decisions);
+std::optional<Difference> first_difference(std::span<const TraceRow> rows, std::span<const Replayed> replayed);
 
 }  // namespace sfsm

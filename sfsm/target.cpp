@@ -1,5 +1,6 @@
 #include "sfsm/target.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <optional>
@@ -17,9 +18,13 @@ constexpr double longest_target_ms = 1e6;
                                 expected);
 }
 
+bool is_target(double ms) {
+    return ms > 0 && ms <= longest_target_ms;
+}
+
 double parse_ms(std::string_view text, std::string_view part) {
     const std::optional<double> ms = parse_double(part);
-    if (!ms || !(*ms > 0 && *ms <= longest_target_ms)) {
+    if (!ms || !is_target(*ms)) {
         fail(text, part, "a time in ms, over 0 and up to 1e6, as in 16.6 or 1000,300@30,95@100");
     }
     return *ms;
@@ -54,13 +59,24 @@ TargetSchedule TargetSchedule::parse(std::string_view text) {
     return schedule;
 }
 
+TargetSchedule TargetSchedule::of_frames(std::span<const double> ms) {
+    if (ms.empty()) throw std::invalid_argument("found no targets, expected one for each frame");
+    TargetSchedule schedule;
+    for (std::size_t i = 0; i < ms.size(); ++i) {
+        if (!is_target(ms[i])) {
+            throw std::invalid_argument("frame " + std::to_string(i) + ": found target " + number_text(ms[i]) +
+                                        " ms, expected one over 0 and up to 1e6");
+        }
+        if (i == 0 || ms[i] != ms[i - 1]) schedule.steps_.push_back({static_cast<std::int64_t>(i), ms[i]});
+    }
+    return schedule;
+}
+
 double TargetSchedule::at(std::int64_t frame) const {
     assert(!steps_.empty());
-    double ms = steps_.front().ms;
-    for (const Step& step : steps_) {
-        if (step.frame <= frame) ms = step.ms;
-    }
-    return ms;
+    const auto after = std::upper_bound(steps_.begin() + 1, steps_.end(), frame,
+                                        [](std::int64_t value, const Step& step) { return value < step.frame; });
+    return (after - 1)->ms;
 }
 
 std::string TargetSchedule::text() const {

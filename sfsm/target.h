@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace sfsm {
+
+inline constexpr std::string_view default_target = "16.6";  // 60 frames a second
 
 class TargetSchedule {
 public:
@@ -14,7 +17,11 @@ public:
     // Throws std::invalid_argument with one line saying what was found and what was expected.
     static TargetSchedule parse(std::string_view text);
 
-    double at(std::int64_t frame) const;  // [ms]
+    // The target of each frame, the first one's first; the last one's holds from then on. Throws std::invalid_argument
+    // for none at all, and naming the first frame whose time is not finite and in (0, 1e6].
+    static TargetSchedule of_frames(std::span<const double> ms);
+
+    double at(std::int64_t frame) const;  // [ms]; cost: the logarithm of how often the target changes
     std::string text() const;             // parses back to the same schedule
 
 private:
@@ -22,7 +29,7 @@ private:
         std::int64_t frame;
         double ms;
     };
-    std::vector<Step> steps_;
+    std::vector<Step> steps_;  // by frame
 };
 
 }  // namespace sfsm

@@ -28,9 +28,9 @@ TEST(Replay, ReproducesARecordedRunToTheBitAtItsOwnDelayOnly) {
     for (int delay = 0; delay <= 4; ++delay) {
         const auto rows = recorded(delay);
         PaperLaw law;
-        EXPECT_FALSE(first_difference(rows, replay_decisions(law, rows, delay))) << "delay " << delay;
+        EXPECT_FALSE(first_difference(rows, replay(law, rows, delay))) << "delay " << delay;
         PaperLaw other;
-        EXPECT_TRUE(first_difference(rows, replay_decisions(other, rows, delay + 1))) << "delay " << delay;
+        EXPECT_TRUE(first_difference(rows, replay(other, rows, delay + 1))) << "delay " << delay;
     }
 }
 
@@ -40,7 +40,7 @@ TEST(Replay, NamesTheFirstFrameAndFieldThatDiffer) {
         auto changed = rows;
         changed[frame].decision.splat_size = std::nextafter(changed[frame].decision.splat_size, 0.0);
         PaperLaw law;
-        const auto difference = first_difference(changed, replay_decisions(law, changed, 1));
+        const auto difference = first_difference(changed, replay(law, changed, 1));
         ASSERT_TRUE(difference);
         EXPECT_EQ(difference->frame, rows[frame].frame);
         EXPECT_EQ(difference->field, "splat_px");
@@ -53,7 +53,7 @@ TEST(Replay, ADifferentTimeIsFoundOut) {
     auto rows = recorded(0);
     rows[40].frame_ms = rows[40].target_ms / 4;
     PaperLaw law;
-    const auto difference = first_difference(rows, replay_decisions(law, rows, 0));
+    const auto difference = first_difference(rows, replay(law, rows, 0));
     ASSERT_TRUE(difference);
     EXPECT_EQ(difference->frame, 41);
 }
@@ -62,7 +62,7 @@ TEST(Replay, FramesWithoutATimeAreNotObserved) {
     auto rows = recorded(0);
     for (TraceRow& row : rows) row.frame_ms = std::numeric_limits<double>::quiet_NaN();
     PaperLaw law;
-    for (const Decision& decision : replay_decisions(law, rows, 0)) EXPECT_EQ(decision, Decision{});
+    for (const Replayed& frame : replay(law, rows, 0)) EXPECT_EQ(frame.decision, Decision{});
     EXPECT_EQ(law.status().bad_samples, 0);
 }
 
@@ -70,7 +70,7 @@ TEST(Replay, OpenLoopTheLawStillMoves) {
     auto rows = recorded(2);
     for (TraceRow& row : rows) row.decision = {};  // as if everything had been forced to state 0
     PaperLaw law;
-    EXPECT_EQ(replay_decisions(law, rows, 2).back().state, State::points);
+    EXPECT_EQ(replay(law, rows, 2).back().decision.state, State::points);
 }
 
 TEST(Replay, DelayIsASmallWholeNumberOrAbsent) {

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace sfsm {
 namespace {
@@ -37,6 +39,29 @@ struct Bad {
     const char* found;     // what the message quotes
     const char* expected;  // and a part of what it asks for
 };
+
+TEST(TargetSchedule, OfFramesHasEachFramesOwnTarget) {
+    const std::vector<double> ms{1000, 1000, 300, 300, 95, 300};
+    const TargetSchedule schedule = TargetSchedule::of_frames(ms);
+    for (std::size_t i = 0; i < ms.size(); ++i) EXPECT_EQ(schedule.at(static_cast<std::int64_t>(i)), ms[i]) << i;
+    EXPECT_EQ(schedule.at(1000), 300);
+    EXPECT_EQ(schedule.at(-1), 1000);
+    EXPECT_EQ(schedule.text(), "1000,300@2,95@4,300@5");
+}
+
+TEST(TargetSchedule, OfFramesRefusesWhatIsNoTargetAndNamesTheFrame) {
+    EXPECT_THROW(TargetSchedule::of_frames({}), std::invalid_argument);
+    for (const double bad :
+         {0.0, -1.0, 1e7, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+        const std::vector<double> ms{10, 10, bad};
+        try {
+            TargetSchedule::of_frames(ms);
+            FAIL() << "took " << bad;
+        } catch (const std::invalid_argument& error) {
+            EXPECT_NE(std::string(error.what()).find("frame 2"), std::string::npos) << error.what();
+        }
+    }
+}
 
 TEST(TargetSchedule, BadTextIsAnsweredWithWhatWasFoundAndExpected) {
     const Bad bads[] = {
