@@ -106,7 +106,9 @@ void replay(const ReplayOptions& options) {
     outputs.commit();
     for (const std::string* path : {&options.json, &options.csv, &options.report, &options.svg})
         if (*path == "-") return;
-    for (const auto& [key, value] : facts) std::cout << key << ": " << value << '\n';
+    std::cout << options.trace << ": " << session.recording.format << ", " << recorded.rows.size() << " frames, "
+              << (session.course ? "closed" : "open") << " loop, delay " << session.delay << ", target "
+              << session.recording.trace.settings.at("target_ms") << " ms\n";
     write_scores(std::cout, report.runs);
 }
 

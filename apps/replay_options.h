@@ -1,0 +1,29 @@
+// The replay program's command line.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "apps/simulate.h"
+
+namespace apps {
+
+struct ReplayOptions {
+    std::string trace;
+    std::string laws;          // names with commas between, or all; empty: the trace's, or the first there is
+    std::string target_ms;     // empty: the trace's, or the default
+    std::optional<int> delay;  // [frames]; empty: the trace's, or a timer query's
+    std::string process;       // empty: the stream with most frames
+    bool open_loop = false, fit = false, verify = false;
+    std::string json, csv, report, svg;  // paths; empty: none; "-": stdout
+    SimulateOptions simulated;
+};
+
+// Adds the options to `app`; parsing fills `options`, which must stay where it is.
+void add_replay_options(CLI::App& app, ReplayOptions& options);
+
+// The rules between options. Throws std::invalid_argument with one line.
+void check(ReplayOptions& options);
+
+}  // namespace apps

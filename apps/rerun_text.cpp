@@ -1,0 +1,146 @@
+#include "apps/rerun_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "sfsm/summary.h"
+
+namespace apps {
+namespace {
+
+namespace sim = sfsm::simulate;
+using Json = nlohmann::ordered_json;
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+// How often, in a thousand frames, a decision isn't the one before.
+double changes_per_1000(const std::vector<sfsm::TraceRow>& rows) {
+    if (rows.size() < 2) return unknown;
+    std::int64_t changes = 0;
+    for (std::size_t i = 1; i < rows.size(); ++i) changes += rows[i].decision != rows[i - 1].decision;
+    return 1000.0 * static_cast<double>(changes) / static_cast<double>(rows.size() - 1);
+}
+
+// The picture kept, in shares of what a clairvoyant keeps; and what is felt of the misses.
+void add_metrics(std::vector<sfsm::Score>& scores, const Rerun& rerun) {
+    using Better = sfsm::Score::Better;
+    const bool closed = rerun.metrics.has_value();
+    const sim::Metrics metrics = rerun.metrics.value_or(sim::Metrics{});
+    const auto known = [=](double value) { return closed ? value : unknown; };
+    scores.push_back({"detail of the best", "%", known(100 * metrics.quality), 1, Better::more});
+    scores.push_back({"worst second over by 5 %", "%", known(100 * metrics.worst_second), 1, Better::less});
+    scores.push_back({"late", "ms/s", known(metrics.hitch_ms_per_s), 1, Better::less});
+    scores.push_back({"changes", "/1000", changes_per_1000(rerun.rows), 0, Better::less});
+}
+
+std::string value_text(const sfsm::Score& score) {
+    if (!std::isfinite(score.value)) return "-";
+    std::ostringstream text;
+    text << std::fixed << std::setprecision(score.digits) << score.value;
+    return text.str();
+}
+
+Json number(double value) {
+    return std::isfinite(value) ? Json(value) : Json();
+}
+
+void add_metrics(Json& json, const sim::Metrics& metrics) {
+    json["quality"] = number(metrics.quality);
+    json["over_target"] = number(metrics.over_target);
+    json["worst_second"] = number(metrics.worst_second);
+    json["hitch_ms_per_s"] = number(metrics.hitch_ms_per_s);
+    json["overshoot_pct"] = number(metrics.overshoot_pct);
+}
+
+std::string percent(double share) {
+    std::ostringstream text;
+    text << std::showpos << std::fixed << std::setprecision(1) << 100 * share << " %";
+    return text.str();
+}
+
+}  // namespace
+
+sfsm::ReportRun report_run(const Rerun& rerun) {
+    sfsm::ReportRun run;
+    run.name = rerun.law;
+    run.frames.reserve(rerun.rows.size());
+    for (const sfsm::TraceRow& row : rerun.rows) run.frames.push_back(sfsm::report_frame(row));
+    run.scores = sfsm::time_scores(run.frames);
+    add_metrics(run.scores, rerun);
+    return run;
+}
+
+void write_scores(std::ostream& out, std::span<const sfsm::ReportRun> runs) {
+    std::size_t name_width = 3;
+    for (const sfsm::ReportRun& run : runs) name_width = std::max(name_width, run.name.size());
+    const auto column = [](const sfsm::Score& score) {
+        return score.name + (score.unit.empty() ? "" : " [" + score.unit + "]");
+    };
+    out << std::left << std::setw(static_cast<int>(name_width)) << "law" << std::right;
+    for (const sfsm::Score& score : runs.front().scores) out << "  " << column(score);
+    out << '\n';
+    for (const sfsm::ReportRun& run : runs) {
+        out << std::left << std::setw(static_cast<int>(name_width)) << run.name << std::right;
+        for (const sfsm::Score& score : run.scores) {
+            out << "  " << std::setw(static_cast<int>(column(score).size())) << value_text(score);
+        }
+        out << '\n';
+    }
+}
+
+Json rerun_json(const Rerun& rerun) {
+    const sfsm::Summary summary = sfsm::summarize(rerun.rows);
+    Json json;
+    json["law"] = rerun.law;
+    json["frames"] = summary.frames;
+    json["target_ms"] = number(summary.target_ms);
+    json["mean_ms"] = number(summary.mean_ms);
+    json["p50_ms"] = number(summary.p50_ms);
+    json["p99_ms"] = number(summary.p99_ms);
+    json["control_rate"] = number(summary.control_rate);
+    json["within_5pct"] = number(summary.within_5pct);
+    json["within_10pct"] = number(summary.within_10pct);
+    json["over_5pct"] = number(summary.over_5pct);
+    json["state_frames"] = summary.state_frames;
+    json["changes_per_1000"] = number(changes_per_1000(rerun.rows));
+    if (rerun.metrics) add_metrics(json, *rerun.metrics);
+    return json;
+}
+
+void write_fit(std::ostream& out, const sim::CostFit& fit) {
+    const std::pair<const char*, double> prices[] = {{"frame", fit.prices.frame},
+                                                     {"person", fit.prices.person},
+                                                     {"triangle", fit.prices.triangle},
+                                                     {"point", fit.prices.point},
+                                                     {"motion update", fit.prices.update}};
+    constexpr double us_per_ms = 1000;
+    out << "cost model of " << fit.frames << " frames, median " << std::setprecision(4) << fit.median_ms << " ms\n";
+    for (const auto& [name, ms] : prices)
+        out << "  " << std::left << std::setw(14) << name << std::right << std::setw(12) << us_per_ms * ms << " us\n";
+    out << "R2 " << fit.r2 << "; time over model";
+    for (std::size_t i = 0; i < fit.percents.size(); ++i)
+        out << (i == 0 ? ": " : ", ") << fit.percents[i] << "th percentile " << percent(fit.residual[i]);
+    out << '\n';
+}
+
+Json fit_json(const sim::CostFit& fit) {
+    Json json;
+    json["frames"] = fit.frames;
+    json["median_ms"] = number(fit.median_ms);
+    json["r2"] = number(fit.r2);
+    json["prices_ms"] = {{"frame", number(fit.prices.frame)},
+                         {"person", number(fit.prices.person)},
+                         {"triangle", number(fit.prices.triangle)},
+                         {"point", number(fit.prices.point)},
+                         {"motion_update", number(fit.prices.update)}};
+    Json& residual = json["residual"] = Json::object();
+    for (std::size_t i = 0; i < fit.percents.size(); ++i)
+        residual["p" + std::to_string(static_cast<int>(fit.percents[i]))] = number(fit.residual[i]);
+    return json;
+}
+
+}  // namespace apps

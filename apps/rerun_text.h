@@ -1,0 +1,28 @@
+// Reruns and cost fits to read: for people, for programs, and as runs of a report.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <ostream>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "apps/rerun.h"
+#include "sfsm/report/report.h"
+#include "sfsm/simulate/recorded.h"
+
+namespace apps {
+
+// With the scores of a closed loop where there are metrics; a list without has the same scores, without values.
+sfsm::ReportRun report_run(const Rerun& rerun);
+
+// A table of the runs' scores, a line a run, columns aligned.
+void write_scores(std::ostream& out, std::span<const sfsm::ReportRun> runs);
+
+// The summary's figures, then the metrics' where there are any; null for what is no number.
+nlohmann::ordered_json rerun_json(const Rerun& rerun);
+
+void write_fit(std::ostream& out, const sfsm::simulate::CostFit& fit);
+nlohmann::ordered_json fit_json(const sfsm::simulate::CostFit& fit);
+
+}  // namespace apps

@@ -1,0 +1,142 @@
+#include "apps/session.h"
+
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <stdexcept>
+
+#include "apps/contestants.h"
+#include "sfsm/controller.h"
+#include "sfsm/replay.h"
+#include "sfsm/simulate/recorded.h"
+#include "sfsm/target.h"
+
+namespace apps {
+namespace {
+
+namespace sim = sfsm::simulate;
+
+constexpr int gpu_delay = 2;  // [frames] until a timer query's time is there: of recordings that don't say
+
+void say(const std::string& line) {
+    std::fprintf(stderr, "replay: %s\n", line.c_str());
+}
+
+std::string describe(const sfsm::Stream& stream) {
+    std::string text = stream.process.empty() ? "unnamed" : stream.process;
+    if (!stream.process_id.empty()) text += " " + stream.process_id;
+    if (!stream.swap_chain.empty()) text += " " + stream.swap_chain;
+    return text + " (" + std::to_string(stream.frames) + " frames)";
+}
+
+// What the reader had to say, and which of several streams it took.
+void say_notes(const sfsm::Recording& recording, const std::string& path) {
+    for (const std::string& note : recording.notes) say(path + ": " + note);
+    if (recording.streams.size() < 2) return;
+    constexpr std::size_t most_named = 8;
+    std::string others;
+    for (std::size_t i = 0; i < recording.streams.size() && i <= most_named; ++i) {
+        if (i != recording.chosen) others += (others.empty() ? "" : ", ") + describe(recording.streams[i]);
+    }
+    if (recording.streams.size() > most_named + 1) others += ", ...";
+    say(path + ": " + std::to_string(recording.streams.size()) + " streams; taken: " +
+        describe(recording.streams[recording.chosen]) + "; --process takes another of: " + others);
+}
+
+sfsm::Recording read(const std::string& path, const std::string& process) {
+    errno = 0;
+    std::ifstream file(path, std::ios::binary);
+    if (!file) throw std::runtime_error("cannot read " + path + ": " + std::strerror(errno) + ", expected a recording");
+    sfsm::Recording recording = sfsm::read_recording(file, path, {process});
+    say_notes(recording, path);
+    return recording;
+}
+
+void set_targets(sfsm::Recording& recording, const std::string& asked) {
+    const sfsm::TargetSchedule targets =
+        sfsm::TargetSchedule::parse(asked.empty() ? sfsm::default_target : std::string_view(asked));
+    for (sfsm::TraceRow& row : recording.trace.rows) {
+        if (!asked.empty() || !(std::isfinite(row.target_ms) && row.target_ms > 0))
+            row.target_ms = targets.at(row.frame);
+    }
+    std::map<std::string, std::string>& settings = recording.trace.settings;
+    if (!asked.empty() || !settings.contains("target_ms")) settings["target_ms"] = targets.text();
+}
+
+std::string law_of(const sfsm::Trace& trace) {
+    const auto found = trace.settings.find("law");
+    return found != trace.settings.end() ? found->second : std::string(sfsm::law_names().front());
+}
+
+}  // namespace
+
+Session open_session(const ReplayOptions& options) {
+    Session session;
+    session.recording = read(options.trace, options.process);
+    const bool has_work = session.recording.has_work();
+    session.delay = options.delay.value_or(has_work ? sfsm::trace_delay(session.recording.trace) : gpu_delay);
+    session.laws = chosen_laws("--law", options.laws.empty() ? law_of(session.recording.trace) : options.laws);
+    set_targets(session.recording, options.target_ms);
+    if (!options.open_loop)
+        session.course =
+            sim::make_course(sim::recorded_scenario(session.recording.trace.rows, {session.delay, has_work}));
+    return session;
+}
+
+sfsm::Trace read_own_trace(const std::string& path) {
+    sfsm::Recording recording = read(path, {});
+    if (!recording.has_work())
+        throw std::runtime_error(path + ": found a recording of " + recording.format + ", expected a trace of ours");
+    return std::move(recording.trace);
+}
+
+Rerun recorded_run(const Session& session) {
+    Rerun rerun{"recorded", session.recording.trace.rows, {}};
+    for (sfsm::TraceRow& row : rerun.rows) row.motion = {}, row.splats = {};
+    return rerun;
+}
+
+Rerun rerun(const Session& session, const sim::Contestant& law) {
+    return session.course ? rerun_closed(law, *session.course)
+                          : rerun_open(law, session.recording.trace.rows, session.delay);
+}
+
+std::vector<std::pair<std::string, std::string>> facts_of(const Session& session, const std::string& path) {
+    const sfsm::Recording& recording = session.recording;
+    std::vector<std::pair<std::string, std::string>> facts = {
+        {"recording", path},
+        {"format", recording.format},
+        {"loop",
+         session.course ? "closed: a cost model times the recorded load" : "open: the recorded times as they are"},
+        {"delay", std::to_string(session.delay) + " frames"}};
+    if (session.course && !recording.has_work()) facts.emplace_back("cost model", "the reference crowd");
+    for (const auto& [key, value] : recording.trace.settings)
+        if (key != "law" && key != "state" && key != "delay" && key != "format") facts.emplace_back(key, value);
+    return facts;
+}
+
+void write_trace(std::ostream& out, const Session& session, const Rerun& rerun) {
+    std::map<std::string, std::string> settings = session.recording.trace.settings;
+    settings["law"] = rerun.law;
+    settings["state"] = "auto";
+    settings["delay"] = std::to_string(session.delay);
+    settings["version"] = GRANDSTAND_VERSION;
+    settings["replayed"] = session.course ? "closed loop" : "open loop";
+    sfsm::write_trace_header(out, settings);
+    const std::vector<sfsm::TraceRow>& recorded = session.recording.trace.rows;
+    for (std::size_t i = 0; i < rerun.rows.size(); ++i) {
+        sfsm::TraceRow row = rerun.rows[i];
+        if (session.course) {
+            add_forecast(row, *session.course->scenario.plant);
+        } else {
+            row.motion = recorded[i].motion;
+            row.splats = recorded[i].splats;
+        }
+        sfsm::write_trace_row(out, row);
+    }
+}
+
+}  // namespace apps

@@ -1,0 +1,41 @@
+// A recording about to be run through laws: read, with its targets set, and as a course where the loop is closed.
+#pragma once
+
+#include <optional>
+#include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/replay_options.h"
+#include "apps/rerun.h"
+#include "sfsm/recordings/recording.h"
+#include "sfsm/simulate/course.h"
+#include "sfsm/simulate/scorecard.h"
+
+namespace apps {
+
+struct Session {
+    sfsm::Recording recording;
+    int delay = 0;  // [frames]
+    std::vector<sfsm::simulate::Contestant> laws;
+    std::optional<sfsm::simulate::Course> course;  // closed loop
+};
+
+// Says on stderr what the reader had to say. Throws what the readers throw.
+Session open_session(const ReplayOptions& options);
+
+// A trace of ours, or throws std::runtime_error saying what was found.
+sfsm::Trace read_own_trace(const std::string& path);
+
+// The recorded run as it was, beside which the laws' are shown.
+Rerun recorded_run(const Session& session);
+Rerun rerun(const Session& session, const sfsm::simulate::Contestant& law);
+
+// What is said of the session in a report, in its order.
+std::vector<std::pair<std::string, std::string>> facts_of(const Session& session, const std::string& path);
+
+// The run as a trace, with the forecasts that the law was given.
+void write_trace(std::ostream& out, const Session& session, const Rerun& rerun);
+
+}  // namespace apps
