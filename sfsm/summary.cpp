@@ -10,8 +10,8 @@
 namespace sfsm {
 namespace {
 
-bool is_measured(const TraceRow& row) {
-    return std::isfinite(row.frame_ms) && std::isfinite(row.target_ms) && row.target_ms > 0;
+bool is_measured(const FrameTime& frame) {
+    return std::isfinite(frame.frame_ms) && std::isfinite(frame.target_ms) && frame.target_ms > 0;
 }
 
 // The smallest time that at least `percent` of the times do not exceed.
@@ -77,21 +77,28 @@ void append_setting(std::string& out, const Settings& settings, const char* key,
 }  // namespace
 
 Summary summarize(std::span<const TraceRow> rows) {
+    std::vector<FrameTime> frames;
+    frames.reserve(rows.size());
+    for (const TraceRow& row : rows) frames.push_back({row.target_ms, row.frame_ms, row.decision.state});
+    return summarize_times(frames);
+}
+
+Summary summarize_times(std::span<const FrameTime> frames) {
     Summary summary;
     std::vector<double> times;
-    for (const TraceRow& row : rows) {
-        if (!is_measured(row)) continue;
-        times.push_back(row.frame_ms);
-        add_frame(summary, row.frame_ms, row.target_ms);
-        summary.target_ms = row.target_ms;
-        ++summary.state_frames[static_cast<std::size_t>(row.decision.state)];
+    for (const FrameTime& frame : frames) {
+        if (!is_measured(frame)) continue;
+        times.push_back(frame.frame_ms);
+        add_frame(summary, frame.frame_ms, frame.target_ms);
+        summary.target_ms = frame.target_ms;
+        ++summary.state_frames[static_cast<std::size_t>(frame.state)];
     }
     if (times.empty()) return summary;
 
-    const auto frames = static_cast<double>(times.size());
+    const auto measured = static_cast<double>(times.size());
     for (double* mean :
          {&summary.mean_ms, &summary.control_rate, &summary.within_5pct, &summary.within_10pct, &summary.over_5pct}) {
-        *mean /= frames;
+        *mean /= measured;
     }
     std::sort(times.begin(), times.end());
     summary.frames = static_cast<std::int64_t>(times.size());

@@ -25,6 +25,13 @@ struct Summary {
 // Percentiles are of the sorted times, nearest rank.
 Summary summarize(std::span<const TraceRow> rows);
 
+// A frame as far as a summary goes, and the same summary of such frames.
+struct FrameTime {
+    double target_ms = 0, frame_ms = 0;
+    State state = State::original;
+};
+Summary summarize_times(std::span<const FrameTime> frames);
+
 // One JSON object on several lines, ending in a line feed: the fields above under their names, and people, law, seed
 // and device as the trace settings of those names have them (null where they are missing; seed and people are numbers).
 std::string summary_json(const Summary& summary, const std::map<std::string, std::string>& settings);

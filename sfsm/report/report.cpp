@@ -1,6 +1,6 @@
 #include "sfsm/report/report.h"
 
-#include <ostream>
+#include "sfsm/summary.h"
 
 namespace sfsm {
 
@@ -10,16 +10,24 @@ ReportFrame report_frame(const TraceRow& row) {
             static_cast<float>(row.decision.splat_size), row.decision.state};
 }
 
-std::vector<Score> time_scores(const std::vector<ReportFrame>&) {
-    return {};
-}
-
-void write_report_html(std::ostream& out, const Report& report) {
-    out << report.title << '\n';
-}
-
-void write_report_svg(std::ostream& out, const Report& report) {
-    out << report.title << '\n';
+std::vector<Score> time_scores(const std::vector<ReportFrame>& frames) {
+    std::vector<FrameTime> times;
+    times.reserve(frames.size());
+    for (const ReportFrame& frame : frames) times.push_back({frame.target_ms, frame.frame_ms, frame.state});
+    const Summary summary = summarize_times(times);
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    const auto share = [&](double value) { return summary.frames > 0 ? 100 * value : none; };
+    const auto time = [&](double value) { return summary.frames > 0 ? value : none; };
+    using enum Score::Better;
+    return {
+        {"control rate", "%", share(summary.control_rate), 1, more},
+        {"within 5 %", "%", share(summary.within_5pct), 1, more},
+        {"within 10 %", "%", share(summary.within_10pct), 1, more},
+        {"over by 5 %", "%", share(summary.over_5pct), 1, less},
+        {"mean", "ms", time(summary.mean_ms), 2, neither},
+        {"median", "ms", time(summary.p50_ms), 2, neither},
+        {"99th percentile", "ms", time(summary.p99_ms), 2, less},
+    };
 }
 
 }  // namespace sfsm

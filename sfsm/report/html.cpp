@@ -1,0 +1,94 @@
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+#include <sstream>
+#include <string_view>
+
+#include "sfsm/report/embedded.h"
+#include "sfsm/report/markup.h"
+#include "sfsm/report/page_file.h"
+#include "sfsm/report/report.h"
+
+namespace sfsm {
+namespace {
+
+using namespace report;
+
+void write_facts(std::ostream& out, const Report& report) {
+    for (const auto& [name, value] : report.facts) {
+        out << "<div><dt>" << escaped(name) << "</dt><dd>" << escaped(value) << "</dd></div>\n";
+    }
+}
+
+// What is marked: the value none of the others beats, unless all are the same as they are shown.
+bool is_best(const Report& report, std::size_t row, const Score& score) {
+    if (score.better == Score::Better::neither || std::isnan(score.value)) return false;
+    bool differs = false;
+    for (const ReportRun& run : report.runs) {
+        const Score& other = run.scores[row];
+        const bool is_same = figure(other.value, other.digits) == figure(score.value, score.digits);
+        const bool beats = score.better == Score::Better::more ? other.value > score.value : other.value < score.value;
+        if (!is_same && beats) return false;
+        differs = differs || !is_same;
+    }
+    return differs;
+}
+
+void write_score(std::ostream& out, const Report& report, std::size_t row, const Score& score) {
+    const bool best = is_best(report, row, score);
+    out << (best ? "<td class=\"best\">" : "<td>") << figure(score.value, score.digits)
+        << (best ? "<span class=\"hidden\"> (best)</span>" : "") << "</td>";
+}
+
+// A figure a row, a run a column.
+void write_scorecard(std::ostream& out, const Report& report) {
+    out << "<table" << (report.runs.size() == 1 ? " class=\"single\"" : "")
+        << "><thead><tr><th scope=\"col\">Figure</th>";
+    for (std::size_t i = 0; i < report.runs.size(); ++i) {
+        out << "<th scope=\"col\"><i class=\"chip\" style=\"--run: var(--run-" << i % 8 << ")\"></i>"
+            << escaped(report.runs[i].name) << "</th>";
+    }
+    out << "</tr></thead><tbody>\n";
+    std::size_t rows = report.runs.front().scores.size();
+    for (const ReportRun& run : report.runs) rows = std::min(rows, run.scores.size());
+    for (std::size_t row = 0; row < rows; ++row) {
+        const Score& first = report.runs.front().scores[row];
+        out << "<tr><th scope=\"row\">" << escaped(first.name)
+            << (first.unit.empty() ? "" : " <small>" + escaped(first.unit) + "</small>") << "</th>";
+        for (const ReportRun& run : report.runs) write_score(out, report, row, run.scores[row]);
+        out << "</tr>\n";
+    }
+    out << "</tbody></table>\n";
+}
+
+void write_script(std::ostream& out) {
+    for (const char* file : {"data.js", "plot.js", "time_charts.js", "spread_charts.js", "page.js"}) {
+        out << page_file(file);
+    }
+}
+
+// What stands in the page for {{name}}.
+void write_part(std::ostream& out, const Report& report, std::string_view name) {
+    if (name == "title") out << escaped(report.title);
+    if (name == "facts") write_facts(out, report);
+    if (name == "scorecard") write_scorecard(out, report);
+    if (name == "style") out << page_file("report.css");
+    if (name == "picture") write_report_svg(out, report);
+    if (name == "data") write_embedded(out, report);
+    if (name == "script") write_script(out);
+}
+
+}  // namespace
+
+void write_report_html(std::ostream& out, const Report& report) {
+    std::string_view page = page_file("report.html");
+    for (std::size_t begin; (begin = page.find("{{")) != page.npos;) {
+        const std::size_t end = page.find("}}", begin);
+        out << page.substr(0, begin);
+        write_part(out, report, page.substr(begin + 2, end - begin - 2));
+        page.remove_prefix(end + 2);
+    }
+    out << page;
+}
+
+}  // namespace sfsm
