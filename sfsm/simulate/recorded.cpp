@@ -1,15 +1,264 @@
 #include "sfsm/simulate/recorded.h"
 
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <optional>
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sfsm/least_loss.h"
+#include "sfsm/replay.h"
+#include "sfsm/simulate/paper_crowd.h"
+#include "sfsm/usable.h"
 
 namespace sfsm::simulate {
+namespace {
 
-CostFit fit_costs(std::span<const TraceRow>) {
-    throw std::runtime_error("found rows, expected a fit");
+constexpr double least_model = 1e-3;  // of a usual frame: nothing is modelled as less, or a load would have no bounds
+constexpr double rounding = 1e-12;
+constexpr std::int64_t most_count = 1'000'000'000'000'000;
+constexpr double longest_range = 1e9;      // [m]
+constexpr std::int64_t usual_start = 200;  // of statistics, or a tenth of a short run
+
+// The candidates of a frame. Spans point into it, so it stays where it is.
+struct Steps {
+    std::vector<MotionStep> motion;
+    std::vector<SplatStep> splats;
+    Forecast forecast;
+
+    Steps(std::span<const MotionStep> motion_steps, std::span<const SplatStep> splat_steps, std::int64_t people)
+        : motion(motion_steps.begin(), motion_steps.end()),
+          splats(splat_steps.begin(), splat_steps.end()),
+          forecast{people, motion, splats} {}
+    Steps(const Steps&) = delete;
+    Steps(Steps&&) = default;  // vectors keep their memory
+};
+
+struct RecordedFrame {
+    double load = 1;
+    double range = 0;       // L [m]
+    std::size_t steps = 0;  // an index
+};
+
+class RecordedPlant final : public Plant {
+public:
+    // Loads are still to be set.
+    RecordedPlant(const Prices& prices, double usual_ms, std::vector<Steps> steps, std::vector<RecordedFrame> frames)
+        : prices_(prices), least_ms_(least_model * usual_ms), steps_(std::move(steps)), frames_(std::move(frames)) {}
+
+    // What frame `frame` took and how it was drawn.
+    void record(std::int64_t frame, double ms, const Decision& decision) {
+        at(frame).load = ms / model_ms(frame, plan(frame, decision));
+    }
+    void set_load(std::int64_t frame, double load) { at(frame).load = load; }
+    double load(std::int64_t frame) const { return at(frame).load; }
+
+    double range(std::int64_t frame) const override { return at(frame).range; }
+    const Forecast* forecast(std::int64_t frame) const override { return &steps_[at(frame).steps].forecast; }
+    double cost_ms(std::int64_t frame, const Decision& decision) const override {
+        return load(frame) * model_ms(frame, plan(frame, decision));
+    }
+    Work work(std::int64_t frame, const Decision& decision) const override;
+    double detail(std::int64_t frame, const Decision& decision) const override {
+        return 1 / (1 + plan(frame, decision).loss_px);
+    }
+    Decision optimum(std::int64_t frame, double limit_ms) const override;
+
+private:
+    RecordedFrame& at(std::int64_t frame) { return frames_[static_cast<std::size_t>(frame)]; }
+    const RecordedFrame& at(std::int64_t frame) const { return frames_[static_cast<std::size_t>(frame)]; }
+    Plan plan(std::int64_t frame, const Decision& decision) const;
+    WorkPrices prices(std::int64_t frame) const;
+    double model_ms(std::int64_t frame, const Plan& plan) const {
+        return std::max(plan_ms(plan, prices(frame)), least_ms_);
+    }
+
+    Prices prices_;
+    double least_ms_;
+    std::vector<Steps> steps_;
+    std::vector<RecordedFrame> frames_;
+};
+
+Plan RecordedPlant::plan(std::int64_t frame, const Decision& decision) const {
+    const Forecast& forecast = *this->forecast(frame);
+    const double range = this->range(frame);
+    double distance = range, size = 0;
+    // Of no use: the nearest, and the finest splats.
+    if (decision.state != State::original) distance = decision.motion_distance > 0 ? decision.motion_distance : 0;
+    if (decision.state == State::points && forecast.splats.size() > 1) {
+        const double finest = forecast.splats[1].size;
+        size = decision.splat_size > finest ? decision.splat_size : finest;
+    }
+    return plan_at(forecast, range, std::min(distance, range), size);
 }
 
-Scenario recorded_scenario(std::span<const TraceRow>, const RecordedOptions&) {
-    throw std::runtime_error("found rows, expected a scenario");
+WorkPrices RecordedPlant::prices(std::int64_t frame) const {
+    const auto people = static_cast<double>(forecast(frame)->people);
+    return {prices_.frame + prices_.person * people, prices_.triangle, prices_.point, prices_.update};
+}
+
+Work RecordedPlant::work(std::int64_t frame, const Decision& decision) const {
+    const Plan drawn = plan(frame, decision);
+    return {forecast(frame)->people, std::llround(drawn.triangles), std::llround(drawn.points),
+            std::llround(drawn.motion_updates)};
+}
+
+Decision decision_of(const Plan& plan, double range) {
+    const bool is_all_moving = !(plan.distance < range);
+    if (!(plan.size > 0)) return is_all_moving ? Decision{} : Decision{State::slowed, plan.distance, 0};
+    return {State::points, is_all_moving ? range : plan.distance, plan.size};
+}
+
+// The least a forecast's steps can cost, whatever the prices.
+double least_plan_ms(const Forecast& forecast, const WorkPrices& prices) {
+    double motion = std::numeric_limits<double>::infinity(), splats = motion;
+    for (const MotionStep& step : forecast.motion)
+        motion = std::min(motion, prices.motion_update * static_cast<double>(step.updates));
+    for (const SplatStep& step : forecast.splats)
+        splats = std::min(splats, prices.triangle * static_cast<double>(step.triangles) +
+                                      prices.point * static_cast<double>(step.points));
+    return prices.frame + motion + splats;
+}
+
+Decision RecordedPlant::optimum(std::int64_t frame, double limit_ms) const {
+    const Forecast& forecast = *this->forecast(frame);
+    const WorkPrices prices = this->prices(frame);
+    const double least_ms = least_plan_ms(forecast, prices) * (1 + rounding);
+    const Plan best = least_loss_plan(forecast, range(frame), prices, std::max(limit_ms / load(frame), least_ms));
+    return decision_of(best, range(frame));
+}
+
+bool is_count(std::int64_t count) {
+    return count >= 0 && count <= most_count;
+}
+
+bool is_loss(double px) {
+    return px >= 0 && std::isfinite(px);
+}
+
+// Distances fall, only the first may be infinite; sizes rise from triangles on; all else is finite. Counts may do what
+// they like.
+bool has_sound_forecast(const TraceRow& row) {
+    if (!row.has_forecast() || !is_count(row.work.people)) return false;
+    for (std::size_t i = 0; i < row.motion.size(); ++i) {
+        const MotionStep& step = row.motion[i];
+        if (!is_count(step.updates) || !is_loss(step.loss_px)) return false;
+        if (i == 0 ? !(step.distance > 0) : !(step.distance > 0 && step.distance < row.motion[i - 1].distance))
+            return false;
+    }
+    for (std::size_t i = 0; i < row.splats.size(); ++i) {
+        const SplatStep& step = row.splats[i];
+        if (!is_count(step.triangles) || !is_count(step.points) || !is_loss(step.loss_px)) return false;
+        if (i == 0 ? step.size != 0 : !(step.size > row.splats[i - 1].size && step.size <= max_splat_size))
+            return false;
+    }
+    return true;
+}
+
+bool is_range(double metres) {
+    return is_usable(metres) && metres <= longest_range;
+}
+
+// For each row the last one up to it that has what is asked for; for the first ones, the first. Nothing: none has.
+template <class Has>
+std::vector<std::size_t> last_rows(std::span<const TraceRow> rows, const Has& has) {
+    std::vector<std::size_t> last(rows.size());
+    const auto first = std::find_if(rows.begin(), rows.end(), has);
+    if (first == rows.end()) return {};
+    auto found = static_cast<std::size_t>(first - rows.begin());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (has(rows[i])) found = i;
+        last[i] = found;
+    }
+    return last;
+}
+
+bool has_time(const TraceRow& row) {
+    return is_frame_time(row.frame_ms);
+}
+
+// Of our own rows: the model is fitted, the candidates are the rows'.
+RecordedPlant own_plant(std::span<const TraceRow> rows, std::span<const std::size_t> forecast_of) {
+    const CostFit fit = fit_costs(rows);
+    const std::vector<std::size_t> range_of = last_rows(rows, [](const TraceRow& row) { return is_range(row.range); });
+    std::vector<Steps> steps;
+    std::vector<RecordedFrame> frames;
+    std::vector<std::size_t> place(rows.size());  // of a row's steps
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const TraceRow& row = rows[i];
+        if (has_sound_forecast(row)) {
+            place[i] = steps.size();
+            steps.emplace_back(row.motion, row.splats, row.work.people);
+        }
+    }
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const double range = range_of.empty() ? static_view.range : rows[range_of[i]].range;
+        frames.push_back({1, range, place[forecast_of[i]]});
+    }
+    return {fit.prices, fit.median_ms, std::move(steps), std::move(frames)};
+}
+
+// Of any other: one crowd for all, on a machine that takes 1 for all of its detail.
+RecordedPlant reference_plant(std::size_t rows) {
+    const WorkPlant crowd(paper_machine, {static_view}, [](std::int64_t) { return std::size_t{0}; });
+    const double all_ms = crowd.cost_ms(0, Decision{});
+    const Prices prices{paper_machine.frame / all_ms, paper_machine.person / all_ms, paper_machine.triangle / all_ms,
+                        paper_machine.point / all_ms, paper_machine.update / all_ms};
+    const Forecast& forecast = *crowd.forecast(0);
+    std::vector<Steps> steps;
+    steps.emplace_back(forecast.motion, forecast.splats, forecast.people);
+    return {prices, 1, std::move(steps), std::vector<RecordedFrame>(rows, {1, static_view.range, 0})};
+}
+
+// The same share of another range.
+Decision rescaled(Decision decision, double from, double to) {
+    if (is_range(from)) decision.motion_distance *= to / from;
+    return decision;
+}
+
+TargetSchedule targets_of(std::span<const TraceRow> rows) {
+    std::vector<double> ms;
+    ms.reserve(rows.size());
+    for (const TraceRow& row : rows) ms.push_back(row.target_ms);
+    return TargetSchedule::of_frames(ms);
+}
+
+}  // namespace
+
+Scenario recorded_scenario(std::span<const TraceRow> rows, const RecordedOptions& options) {
+    assert(options.delay >= 0 && options.delay <= max_delay);
+    const std::vector<std::size_t> time_of = last_rows(rows, has_time);
+    if (time_of.empty()) {
+        throw std::runtime_error("found no time in " + std::to_string(rows.size()) +
+                                 " frames, expected at least one of 1e-6 to 1e9 ms");
+    }
+    std::vector<std::size_t> forecast_of;
+    if (options.has_work) forecast_of = last_rows(rows, has_sound_forecast);
+    const bool is_foreign = forecast_of.empty();
+    const auto plant =
+        std::make_shared<RecordedPlant>(is_foreign ? reference_plant(rows.size()) : own_plant(rows, forecast_of));
+    for (std::int64_t frame = 0; frame < std::ssize(rows); ++frame) {
+        const TraceRow& row = rows[static_cast<std::size_t>(frame)];
+        if (!has_time(row)) continue;
+        const Decision decision = is_foreign ? rescaled(row.decision, row.range, plant->range(frame)) : row.decision;
+        plant->record(frame, row.frame_ms, decision);
+    }
+    for (std::int64_t frame = 0; frame < std::ssize(rows); ++frame)
+        plant->set_load(frame, plant->load(static_cast<std::int64_t>(time_of[static_cast<std::size_t>(frame)])));
+
+    Scenario scenario;
+    scenario.name = "recorded";
+    scenario.about = "a recorded run of " + std::to_string(rows.size()) + " frames";
+    scenario.plant = plant;
+    scenario.target = targets_of(rows);
+    scenario.frames = std::ssize(rows);
+    scenario.statistics_from = std::min(usual_start, scenario.frames / 10);
+    scenario.delay = options.delay;
+    return scenario;
 }
 
 }  // namespace sfsm::simulate

@@ -1,45 +1,37 @@
 // A recorded run as a simulated renderer. What was recorded is the load under its own detail; what a law would have met
 // with decisions of its own is a cost model times that load:
-//   cost(k, decision) = model(work(k, decision)) * load(k),   load(k) = recorded time / model(recorded work).
-// Of our own traces the model is fitted, and the work of every decision is what the trace's forecasts say. Of anything
-// else the load is the time of a frame in which nothing is given up, and the model is the reference crowd below.
+//   cost(k, decision) = model(work(k, decision)) * load(k),   load(k) = recorded time / model(work(k, recorded
+//   decision)).
+// So the recorded decision costs the recorded time. Of our own traces the model is fitted, and the work of a decision
+// is what the row's forecast says. Of anything else both are the reference crowd's.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <span>
 
+#include "sfsm/simulate/cost_fit.h"
 #include "sfsm/simulate/scenario.h"
-#include "sfsm/simulate/work_plant.h"
 #include "sfsm/trace.h"
 
 namespace sfsm::simulate {
 
-// How well prices times counts explain the times of a trace.
-struct CostFit {
-    Prices prices;            // [ms] each >= 0: robust, non-negative least squares
-    std::int64_t frames = 0;  // that were fitted
-    double r2 = 0;            // 1 - residual / total sum of squares of the times; can be negative
-    double median_ms = 0;     // of the times
-    // Percentiles of the relative residual time / model - 1.
-    static constexpr std::array<double, 7> percents{1, 5, 25, 50, 75, 95, 99};
-    std::array<double, 7> residual{};
-};
-
-// Throws std::runtime_error where the rows can't tell: fewer than 16 measured, or no work counted in any.
-CostFit fit_costs(std::span<const TraceRow> rows);
-
-// The reference crowd: 20,000 people of Lyu et al. 2018 whose prices are in its proportions, so that states 0, 1 and 2
-// cost about 1, 1/3 and 1/10 of the load.
+// The reference crowd: the 20,000 people of Lyu et al. 2018 (paper_crowd.h) on a machine on which a frame of state 0
+// takes 1. State 1 at D = 3/4 L takes 0.31, state 2 at D = L / 6 and S = 1.5 px 0.10. It never moves: one forecast for
+// all frames, L = 600 m.
 
 struct RecordedOptions {
     int delay = 2;          // [frames] in [0, max_delay]
     bool has_work = false;  // rows are one of our traces'
 };
 
-// The run in a closed loop, without any noise but what the load brings. Targets are the rows' (all finite and > 0).
-// Rows without a time have the load of the last one before them. Throws as fit_costs does, and std::runtime_error where
-// no row has a time.
+// The run in a closed loop, without any noise but what the load brings; frame k is rows[k], whatever its number.
+//
+// Work is interpolated between the steps of a forecast as forecast.h says; a row whose forecast can't be used (none,
+// not in order, not finite) has the one of the last row before it, the first rows that of the first that has one. Rows
+// without a time and a range take theirs in the same way; times a frame can't take (cost_fit.h) are none. Traces of
+// ours in which no row has a forecast are treated as foreign, each decision being read for the reference crowd's range.
+//
+// Throws std::runtime_error where no row has a time, as fit_costs does where it is needed, and std::invalid_argument
+// where a target is not one (target.h).
 Scenario recorded_scenario(std::span<const TraceRow> rows, const RecordedOptions& options);
 
 }  // namespace sfsm::simulate

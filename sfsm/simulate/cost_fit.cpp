@@ -1,0 +1,243 @@
+#include "sfsm/simulate/cost_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "sfsm/simulate/least_squares.h"
+
+namespace sfsm::simulate {
+namespace {
+
+constexpr std::size_t fewest_frames = 16;
+constexpr double far_off = 1000;     // times the median: not a frame of this renderer
+constexpr double most_count = 1e15;  // of any work
+
+// The belief: pieces of a person, a triangle, a point, an update, and what every frame has in shares of a mean frame.
+enum Kind : std::size_t { frame, person, triangle, point, update };
+constexpr Unknowns pieces_each{1, 50, 1, 2, 300};
+constexpr double frame_share = 0.05;
+// 1 sigma of the believed price is the price. Where times have no noise at all, the belief decides only what is left
+// open: this small, it moves no digit of what they tell.
+constexpr double least_belief = 1e-10;
+constexpr double level_weight = 0.1;  // of what triangles and points take together: one is a better guess of the other
+
+constexpr double huber = 1.345;             // sigmas; 95 % as good as least squares where all noise is normal
+constexpr double sigma_of_median = 1.4826;  // a normal sigma over the median of absolute values
+constexpr double least_sigma = 1e-12;
+constexpr double least_share = 0.01;   // of the time: a model below that can't scale a residual
+constexpr double equal_times = 1e-24;  // a variance of times, relative, that is rounding
+constexpr int most_rounds = 60;
+constexpr double settled = 1e-13;       // of a price, from one round to the next
+constexpr double settled_noise = 1e-6;  // or in shares of the noise
+
+struct Observation {
+    Unknowns amounts{};  // at price 1 each takes what is believed of it, in medians of the times
+    double time = 0;     // in the same
+};
+
+double counted(std::int64_t count) {
+    return std::clamp(static_cast<double>(count), 0.0, most_count);
+}
+
+template <class Value>
+double median(std::vector<Value> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+double dot(const Unknowns& a, const Unknowns& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+    return sum;
+}
+
+double pieces_of(const Observation& seen) {
+    double sum = 0;
+    for (const double amount : seen.amounts) sum += amount;
+    return sum;
+}
+
+// Amounts in pieces, times in ms; what every frame has is still nothing.
+std::vector<Observation> observations_of(std::span<const TraceRow> rows) {
+    std::vector<Observation> all;
+    std::vector<double> times;
+    for (const TraceRow& row : rows) {
+        if (!is_frame_time(row.frame_ms)) continue;
+        const Unknowns counts{0, counted(row.work.people), counted(row.work.triangles), counted(row.work.points),
+                              counted(row.work.motion_updates)};
+        Observation& seen = all.emplace_back();
+        for (std::size_t i = 0; i < counts.size(); ++i) seen.amounts[i] = pieces_each[i] * counts[i];
+        seen.time = row.frame_ms;
+        times.push_back(row.frame_ms);
+    }
+    if (times.empty()) return all;
+    const double usual = median(times);
+    std::erase_if(all,
+                  [=](const Observation& seen) { return seen.time > far_off * usual || seen.time < usual / far_off; });
+    return all;
+}
+
+// What one unknown at 1 stands for.
+struct Units {
+    double median_ms = 1;
+    double frame_pieces = 0;
+    double ms_each = 0;  // of a piece
+};
+
+// Turns the observations into those units.
+Units scale(std::vector<Observation>& all) {
+    std::vector<double> times;
+    double pieces = 0;
+    for (const Observation& seen : all) {
+        times.push_back(seen.time);
+        pieces += pieces_of(seen) / static_cast<double>(all.size());
+    }
+    Units units;
+    units.median_ms = median(times);
+    units.frame_pieces = frame_share * pieces;
+    std::vector<double> ms_each;
+    for (Observation& seen : all) {
+        seen.amounts[0] = units.frame_pieces;
+        ms_each.push_back(seen.time / pieces_of(seen));
+    }
+    units.ms_each = median(ms_each);
+    for (Observation& seen : all) {
+        for (double& amount : seen.amounts) amount *= units.ms_each / units.median_ms;
+        seen.time /= units.median_ms;
+    }
+    return units;
+}
+
+// What a row's residual is relative to.
+double modelled(const Observation& seen, const Unknowns& prices) {
+    return std::max(dot(seen.amounts, prices), least_share * seen.time);
+}
+
+double residual(const Observation& seen, const Unknowns& prices) {
+    return (seen.time - dot(seen.amounts, prices)) / modelled(seen, prices);
+}
+
+double sigma_of(const std::vector<Observation>& all, const Unknowns& prices) {
+    std::vector<double> sizes;
+    sizes.reserve(all.size());
+    for (const Observation& seen : all) sizes.push_back(std::abs(residual(seen, prices)));
+    return std::max(sigma_of_median * median(std::move(sizes)), least_sigma);
+}
+
+// Each price is 1, give or take 1, but triangles and points are rather as dear as each other, give or take that much.
+void add_belief(LeastSquares& sum, double weight, const Unknowns& prices) {
+    for (const std::size_t kind : {frame, person, update}) {
+        Unknowns coefficients{};
+        coefficients[kind] = weight;
+        sum.add(coefficients, weight);
+    }
+    const double level = std::max({1.0, prices[triangle], prices[point]});
+    Unknowns difference{}, both{};
+    difference[triangle] = weight / level;
+    difference[point] = -weight / level;
+    sum.add(difference, 0);
+    both[triangle] = both[point] = level_weight * weight;
+    sum.add(both, 2 * level_weight * weight);
+}
+
+// The equations of one round: those of the times as the last round's prices weigh them, down from `clip` on, and those
+// of the belief, for which a frame is off by `noise`.
+LeastSquares equations(const std::vector<Observation>& all, const Unknowns& prices, double clip, double noise) {
+    LeastSquares sum;
+    for (const Observation& seen : all) {
+        const double off = std::abs(residual(seen, prices));
+        const double weight = off > clip ? std::sqrt(clip / off) : 1.0;
+        const double share = weight / modelled(seen, prices);
+        Unknowns coefficients = seen.amounts;
+        for (double& coefficient : coefficients) coefficient *= share;
+        sum.add(coefficients, seen.time * share);
+    }
+    add_belief(sum, std::max(noise, least_belief), prices);
+    return sum;
+}
+
+struct Solution {
+    Unknowns prices{};
+    Unknowns sigma{};
+};
+
+// Iteratively reweighted least squares. The first round has no prices: residuals are relative to the times, all weigh
+// the same, and the belief decides only what is left open.
+Solution solve(const std::vector<Observation>& all) {
+    Solution solution;
+    double sigma = 0, change = 1;
+    for (int round = 0; round < most_rounds && change > std::max(settled, settled_noise * sigma); ++round) {
+        const LeastSquares sum = round == 0 ? equations(all, {}, std::numeric_limits<double>::infinity(), 0)
+                                            : equations(all, solution.prices, huber * sigma, sigma);
+        const Unknowns before = solution.prices;
+        solution.prices = sum.solve_non_negative();
+        sigma = sigma_of(all, solution.prices);
+        const Unknowns variances = sum.variances();
+        change = 0;
+        for (std::size_t i = 0; i < before.size(); ++i) {
+            solution.sigma[i] = sigma * std::sqrt(variances[i]);
+            change = std::max(change, std::abs(solution.prices[i] - before[i]) / (1 + solution.prices[i]));
+        }
+    }
+    return solution;
+}
+
+Prices prices_of(const Unknowns& unknown, const Units& units) {
+    Unknowns ms{};
+    for (std::size_t i = 0; i < ms.size(); ++i) ms[i] = unknown[i] * units.ms_each * pieces_each[i];
+    return {ms[0] * units.frame_pieces, ms[1], ms[2], ms[3], ms[4]};
+}
+
+// How well the model explains the times: R2 and the percentiles.
+void judge(CostFit& fit, const std::vector<Observation>& all, const Unknowns& prices) {
+    double mean = 0, total = 0, left = 0;
+    for (const Observation& seen : all) mean += seen.time / static_cast<double>(all.size());
+    std::vector<double> residuals;
+    for (const Observation& seen : all) {
+        const double model = dot(seen.amounts, prices);
+        total += (seen.time - mean) * (seen.time - mean);
+        left += (seen.time - model) * (seen.time - model);
+        residuals.push_back(residual(seen, prices));
+    }
+    fit.r2 = total > equal_times * static_cast<double>(all.size()) ? 1 - left / total : 0;
+    std::sort(residuals.begin(), residuals.end());
+    for (std::size_t i = 0; i < fit.residual.size(); ++i) {
+        const double place = fit.percents[i] / 100 * static_cast<double>(residuals.size() - 1);
+        const auto below = static_cast<std::size_t>(place);
+        const std::size_t above = std::min(below + 1, residuals.size() - 1);
+        fit.residual[i] = std::lerp(residuals[below], residuals[above], place - static_cast<double>(below));
+    }
+}
+
+}  // namespace
+
+CostFit fit_costs(std::span<const TraceRow> rows) {
+    std::vector<Observation> all = observations_of(rows);
+    if (all.size() < fewest_frames) {
+        throw std::runtime_error("found " + std::to_string(all.size()) +
+                                 " frames with a time, expected 16 to learn what work costs");
+    }
+    if (std::all_of(all.begin(), all.end(), [](const Observation& seen) { return pieces_of(seen) == 0; }))
+        throw std::runtime_error("found no work counted in any frame, expected people, triangles, points or updates");
+    const Units units = scale(all);
+    const Solution solution = solve(all);
+    CostFit fit;
+    fit.prices = prices_of(solution.prices, units);
+    fit.sigma = prices_of(solution.sigma, units);
+    fit.frames = std::ssize(all);
+    fit.median_ms = units.median_ms;
+    judge(fit, all, solution.prices);
+    return fit;
+}
+
+double cost_of(const Work& work, const Prices& prices) {
+    return prices.frame + prices.person * counted(work.people) + prices.triangle * counted(work.triangles) +
+           prices.point * counted(work.points) + prices.update * counted(work.motion_updates);
+}
+
+}  // namespace sfsm::simulate

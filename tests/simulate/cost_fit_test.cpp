@@ -1,0 +1,226 @@
+// Prices learned from traces: the right ones, whatever hitches; and a defined answer where rows can't tell.
+#include "sfsm/simulate/cost_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+#include "sfsm/simulate/noise.h"
+
+namespace sfsm::simulate {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr Prices true_prices{.frame = 2.5, .person = 2e-4, .triangle = 1.5e-6, .point = 4e-6, .update = 6e-4};
+
+// A run through all three states in which everything changes by itself.
+std::vector<TraceRow> run_of(int frames, const Prices& prices) {
+    std::mt19937 random(5);
+    const auto upto = [&](double most) {
+        return static_cast<std::int64_t>(most * static_cast<double>(random()) / 4294967296.0);
+    };
+    std::vector<TraceRow> rows(static_cast<std::size_t>(frames));
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        TraceRow& row = rows[i];
+        row.frame = static_cast<std::int64_t>(i);
+        row.target_ms = 16;
+        row.range = 200;
+        row.work.people = 5000 + upto(15000);
+        row.work.motion_updates = upto(static_cast<double>(row.work.people));
+        (i % 3 == 2 ? row.work.points : row.work.triangles) = 100'000 + upto(5e6);
+        row.frame_ms = cost_of(row.work, prices);
+    }
+    return rows;
+}
+
+void add_noise(std::vector<TraceRow>& rows, double sigma, double hitches) {
+    for (TraceRow& row : rows) {
+        row.frame_ms *= std::exp(sigma * normal_at(1, row.frame, Stream::noise));
+        if (uniform_at(1, row.frame, Stream::spike) < hitches) row.frame_ms *= 40;
+    }
+}
+
+void expect_prices(const Prices& found, const Prices& expected, double relative) {
+    EXPECT_NEAR(found.frame, expected.frame, relative * expected.frame);
+    EXPECT_NEAR(found.person, expected.person, relative * expected.person);
+    EXPECT_NEAR(found.triangle, expected.triangle, relative * expected.triangle);
+    EXPECT_NEAR(found.point, expected.point, relative * expected.point);
+    EXPECT_NEAR(found.update, expected.update, relative * expected.update);
+}
+
+double model_ms(const CostFit& fit, const TraceRow& row) {
+    return cost_of(row.work, fit.prices);
+}
+
+TEST(CostFit, RecoversThePricesOfTimesWithoutNoise) {
+    const std::vector<TraceRow> rows = run_of(200, true_prices);
+    const CostFit fit = fit_costs(rows);
+    expect_prices(fit.prices, true_prices, 1e-9);
+    EXPECT_EQ(fit.frames, 200);
+    EXPECT_NEAR(fit.r2, 1, 1e-12);
+    for (const double off : fit.residual) EXPECT_NEAR(off, 0, 1e-9);
+}
+
+TEST(CostFit, RecoversFreeWorkAsFree) {
+    Prices prices = true_prices;
+    prices.update = 0;
+    const CostFit fit = fit_costs(run_of(200, prices));
+    EXPECT_NEAR(fit.prices.update, 0, 1e-12);
+    EXPECT_NEAR(fit.prices.triangle, prices.triangle, 1e-9 * prices.triangle);
+}
+
+TEST(CostFit, HitchesBendNothingWhereTheRestIsExact) {
+    std::vector<TraceRow> rows = run_of(200, true_prices);
+    add_noise(rows, 0, 0.05);
+    expect_prices(fit_costs(rows).prices, true_prices, 1e-9);
+}
+
+TEST(CostFit, RecoversThePricesWithinTheirSigmasFromNoiseAndHitches) {
+    std::vector<TraceRow> rows = run_of(1000, true_prices);
+    add_noise(rows, 0.03, 0.01);
+    const CostFit fit = fit_costs(rows);
+    // The sharpest price is that of triangles; each is stated with its own error.
+    expect_prices(fit.prices, true_prices, 0.05);
+    constexpr double sigmas = 3.5;
+    EXPECT_NEAR(fit.prices.frame, true_prices.frame, sigmas * fit.sigma.frame);
+    EXPECT_NEAR(fit.prices.person, true_prices.person, sigmas * fit.sigma.person);
+    EXPECT_NEAR(fit.prices.triangle, true_prices.triangle, sigmas * fit.sigma.triangle);
+    EXPECT_NEAR(fit.prices.point, true_prices.point, sigmas * fit.sigma.point);
+    EXPECT_NEAR(fit.prices.update, true_prices.update, sigmas * fit.sigma.update);
+    EXPECT_LT(fit.sigma.triangle, 0.01 * true_prices.triangle);
+    // Percentiles of normal noise of 3 %.
+    EXPECT_NEAR(fit.residual[1], -0.049, 0.006);
+    EXPECT_NEAR(fit.residual[3], 0, 0.003);
+    EXPECT_NEAR(fit.residual[5], 0.051, 0.008);
+}
+
+// What defines a robust fit: clipped relative residuals balance along every price, so that none would gain by moving.
+TEST(CostFit, ClippedResidualsBalanceAlongEveryPrice) {
+    std::vector<TraceRow> rows = run_of(1000, true_prices);
+    add_noise(rows, 0.03, 0.01);
+    const CostFit fit = fit_costs(rows);
+    std::vector<double> sizes;
+    for (const TraceRow& row : rows) sizes.push_back(std::abs(row.frame_ms / model_ms(fit, row) - 1));
+    std::nth_element(sizes.begin(), sizes.begin() + 500, sizes.end());
+    const double sigma = 1.4826 * sizes[500], clip = 1.345 * sigma;
+    const auto counts = [](const Work& work) {
+        return std::vector<double>{1, static_cast<double>(work.people), static_cast<double>(work.triangles),
+                                   static_cast<double>(work.points), static_cast<double>(work.motion_updates)};
+    };
+    for (std::size_t kind = 0; kind < 5; ++kind) {
+        double slope = 0, squares = 0;
+        for (const TraceRow& row : rows) {
+            const double model = model_ms(fit, row), share = counts(row.work)[kind] / model;
+            slope += share * std::clamp(row.frame_ms / model - 1, -clip, clip);
+            squares += share * share;
+        }
+        // In sigmas of what noise alone does to this sum; the belief pulls by a few hundredths.
+        EXPECT_LT(std::abs(slope) / (sigma * std::sqrt(squares)), 0.05) << kind;
+    }
+}
+
+TEST(CostFit, NoPriceIsNegative) {
+    // The more is updated, the faster: nothing a price can be.
+    std::vector<TraceRow> rows = run_of(300, true_prices);
+    Prices prices = true_prices;
+    prices.update = 0;
+    for (TraceRow& row : rows) {
+        const double all_ms = cost_of(row.work, prices);
+        row.frame_ms = all_ms * (1 - 0.2 * static_cast<double>(row.work.motion_updates) / 20000);
+    }
+    const CostFit fit = fit_costs(rows);
+    EXPECT_EQ(fit.prices.update, 0);
+    for (const double price : {fit.prices.frame, fit.prices.person, fit.prices.triangle, fit.prices.point})
+        EXPECT_GE(price, 0);
+}
+
+TEST(CostFit, SharesTheTimeOfAConstantCrowdBetweenItAndTheFrame) {
+    std::vector<TraceRow> rows = run_of(200, true_prices);
+    for (TraceRow& row : rows) {
+        row.work.people = 20000;
+        row.frame_ms = cost_of(row.work, true_prices);
+    }
+    const CostFit fit = fit_costs(rows);
+    EXPECT_GT(fit.prices.frame, 0);
+    EXPECT_GT(fit.prices.person, 0);
+    EXPECT_NEAR(fit.prices.frame + 20000 * fit.prices.person, true_prices.frame + 20000 * true_prices.person, 1e-8);
+    EXPECT_NEAR(fit.prices.point, true_prices.point, 1e-9 * true_prices.point);
+    EXPECT_NEAR(fit.r2, 1, 1e-12);
+}
+
+TEST(CostFit, GuessesThePriceOfTrianglesNeverDrawnFromThatOfPoints) {
+    std::vector<TraceRow> rows = run_of(600, true_prices);
+    std::erase_if(rows, [](const TraceRow& row) { return row.work.triangles > 0; });
+    add_noise(rows, 0.02, 0);
+    const CostFit fit = fit_costs(rows);
+    EXPECT_NEAR(fit.prices.point, true_prices.point, 0.05 * true_prices.point);
+    EXPECT_GT(fit.prices.triangle, 0.25 * fit.prices.point);
+    EXPECT_LT(fit.prices.triangle, 1.0 * fit.prices.point);
+    EXPECT_GT(fit.sigma.triangle, 0.5 * fit.prices.triangle) << "it says that this is a guess";
+}
+
+TEST(CostFit, ARunInWhichNothingChangesIsSharedByBelief) {
+    std::vector<TraceRow> rows = run_of(100, true_prices);
+    for (TraceRow& row : rows) {
+        row.work = rows.front().work;
+        row.frame_ms = 40;
+    }
+    const CostFit fit = fit_costs(rows);
+    EXPECT_NEAR(model_ms(fit, rows.front()), 40, 1e-6);
+    EXPECT_GT(fit.prices.triangle, 0);
+    EXPECT_GT(fit.prices.update, fit.prices.triangle);
+    EXPECT_EQ(fit.r2, 0) << "there is nothing to explain";
+}
+
+TEST(CostFit, SkipsRowsWithoutATimeAndTimesAThousandfoldOff) {
+    std::vector<TraceRow> rows = run_of(200, true_prices);
+    const double infinity = std::numeric_limits<double>::infinity();
+    const double no_times[] = {none, infinity, -infinity, 0, -3, 1e30, 5e-324, 1e8};
+    std::size_t at = 3;
+    for (const double ms : no_times) rows[at += 11].frame_ms = ms;
+    const CostFit fit = fit_costs(rows);
+    EXPECT_EQ(fit.frames, 200 - std::ssize(no_times));
+    expect_prices(fit.prices, true_prices, 1e-9);
+}
+
+TEST(CostFit, AsksForSixteenFramesAndForWork) {
+    std::vector<TraceRow> rows = run_of(16, true_prices);
+    EXPECT_NO_THROW(fit_costs(rows));
+    rows[4].frame_ms = none;
+    EXPECT_THROW(fit_costs(rows), std::runtime_error);
+    EXPECT_THROW(fit_costs({}), std::runtime_error);
+    std::vector<TraceRow> idle = run_of(100, true_prices);
+    for (TraceRow& row : idle) row.work = {};
+    EXPECT_THROW(fit_costs(idle), std::runtime_error);
+}
+
+TEST(CostFit, HugeCountsGiveFinitePrices) {
+    std::vector<TraceRow> rows = run_of(100, true_prices);
+    constexpr auto most = std::numeric_limits<std::int64_t>::max();
+    rows[10].work = {most, most, most, most};
+    rows[20].work.motion_updates = std::numeric_limits<std::int64_t>::min();
+    const CostFit fit = fit_costs(rows);
+    for (const double price :
+         {fit.prices.frame, fit.prices.person, fit.prices.triangle, fit.prices.point, fit.prices.update, fit.r2}) {
+        EXPECT_TRUE(std::isfinite(price));
+    }
+}
+
+TEST(CostFit, TheSameRowsGiveTheSameBits) {
+    std::vector<TraceRow> rows = run_of(300, true_prices);
+    add_noise(rows, 0.03, 0.01);
+    const CostFit a = fit_costs(rows), b = fit_costs(rows);
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(a.prices.frame), std::bit_cast<std::uint64_t>(b.prices.frame));
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(a.prices.update), std::bit_cast<std::uint64_t>(b.prices.update));
+    EXPECT_EQ(a.residual, b.residual);
+}
+
+}  // namespace
+}  // namespace sfsm::simulate
