@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -22,6 +21,7 @@ constexpr double least_model = 1e-3;  // of a usual frame: nothing is modelled a
 constexpr double rounding = 1e-12;
 constexpr std::int64_t most_count = 1'000'000'000'000'000;
 constexpr double longest_range = 1e9;      // [m]
+constexpr double most_loss = 1e9;          // [px]
 constexpr std::int64_t usual_start = 200;  // of statistics, or a tenth of a short run
 
 // The candidates of a frame. Spans point into it, so it stays where it is.
@@ -137,7 +137,7 @@ bool is_count(std::int64_t count) {
 }
 
 bool is_loss(double px) {
-    return px >= 0 && std::isfinite(px);
+    return px >= 0 && px <= most_loss;
 }
 
 // Distances fall, only the first may be infinite; sizes rise from triangles on; all else is finite. Counts may do what
