@@ -2,15 +2,18 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
-#include <istream>
 #include <limits>
 #include <optional>
 #include <ostream>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
+#include "sfsm/line_reader.h"
 #include "sfsm/number_text.h"
+#include "sfsm/text.h"
 
 namespace sfsm {
 namespace {
@@ -39,16 +42,6 @@ constexpr std::string_view header_line =
     "range_m";
 constexpr std::string_view predicted_name = "predicted_ms", motion_name = "motion_steps", splat_name = "splat_steps";
 
-// Where in a file we are: all that an error needs to say.
-struct Place {
-    const std::string& name;
-    int line = 0;
-
-    [[noreturn]] void fail(const std::string& found_and_expected) const {
-        throw std::runtime_error(name + ":" + std::to_string(line) + ": " + found_and_expected);
-    }
-};
-
 // A setting is one line: what would break it becomes a blank.
 std::string one_line(std::string_view text) {
     std::string line(text);
@@ -58,13 +51,6 @@ std::string one_line(std::string_view text) {
     return line;
 }
 
-bool next_line(std::istream& in, std::string& line, Place& place) {
-    if (!std::getline(in, line)) return false;
-    ++place.line;
-    if (line.ends_with('\r')) line.pop_back();
-    return true;
-}
-
 void read_setting(std::string_view line, std::map<std::string, std::string>& settings) {
     line.remove_prefix(1);
     if (line.starts_with(' ')) line.remove_prefix(1);
@@ -72,13 +58,12 @@ void read_setting(std::string_view line, std::map<std::string, std::string>& set
     if (equals != std::string_view::npos) settings[std::string(line.substr(0, equals))] = line.substr(equals + 1);
 }
 
-std::vector<std::string_view> split(std::string_view line, char separator = ',') {
-    std::vector<std::string_view> fields;
-    for (std::size_t comma; (comma = line.find(separator)) != std::string_view::npos; line.remove_prefix(comma + 1)) {
+void split(std::string_view line, std::vector<std::string_view>& fields) {
+    fields.clear();
+    for (std::size_t comma; (comma = line.find(',')) != std::string_view::npos; line.remove_prefix(comma + 1)) {
         fields.push_back(line.substr(0, comma));
     }
     fields.push_back(line);
-    return fields;
 }
 
 // Where each of our columns stands in this file.
@@ -88,8 +73,9 @@ struct Header {
     std::size_t fields = 0;
 };
 
-Header parse_header(std::string_view line, const Place& place) {
-    const std::vector<std::string_view> found = split(line);
+Header parse_header(std::string_view line, const LineReader& place) {
+    std::vector<std::string_view> found;
+    split(line, found);
     Header header;
     header.fields = found.size();
     for (std::size_t i = 0; i < found.size(); ++i) {
@@ -115,12 +101,12 @@ Header parse_header(std::string_view line, const Place& place) {
 struct Fields {
     const Header& header;
     const std::vector<std::string_view>& fields;
-    const Place& place;
+    const LineReader& place;
 
     std::string_view text(Column column) const { return fields[header.position[column]]; }
 
     [[noreturn]] void fail(Column column, const char* expected) const {
-        place.fail(std::string(column_names[column]) + " is '" + std::string(text(column)) + "', expected " + expected);
+        place.fail(std::string(column_names[column]) + " is " + shown(text(column)) + ", expected " + expected);
     }
 
     double number(Column column) const {
@@ -136,8 +122,7 @@ struct Fields {
         constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
         if (!header.predicted || fields[*header.predicted].empty()) return unknown;
         if (const std::optional<double> value = parse_double(fields[*header.predicted])) return *value;
-        place.fail(std::string(predicted_name) + " is '" + std::string(fields[*header.predicted]) +
-                   "', expected a number");
+        place.fail(std::string(predicted_name) + " is " + shown(fields[*header.predicted]) + ", expected a number");
     }
 
     std::int64_t count(Column column) const {
@@ -146,24 +131,36 @@ struct Fields {
         return *value;
     }
 
-    // Steps of `numbers` numbers each; `add` takes them.
-    template <std::size_t numbers, typename Add>
-    void steps(std::optional<std::size_t> position, std::string_view name, Add add) const {
+    // Steps of `numbers` numbers each, one after the other: most of a trace's bytes are these. `add` takes them.
+    template <std::size_t numbers, typename Step, typename Add>
+    void steps(std::optional<std::size_t> position, std::string_view name, std::vector<Step>& into, Add add) const {
         if (!position || fields[*position].empty()) return;
-        for (const std::string_view step : split(fields[*position], ' ')) {
-            const std::vector<std::string_view> texts = split(step, ':');
+        const std::string_view field = fields[*position];
+        into.reserve(1 + static_cast<std::size_t>(std::count(field.begin(), field.end(), ' ')));
+        const char* const end = field.data() + field.size();
+        for (const char* at = field.data();; ++at) {
+            const char* const begin = at;
             std::array<double, numbers> values{};
-            bool is_step = texts.size() == numbers;
-            for (std::size_t i = 0; is_step && i < numbers; ++i) {
-                const std::optional<double> value = parse_double(texts[i]);
-                is_step = value && *value >= 0;
-                if (is_step) values[i] = *value;
-            }
-            if (!is_step)
-                place.fail(std::string(name) + " has '" + std::string(step) + "', expected " + std::to_string(numbers) +
+            if (!parse_step(at, end, values)) {
+                const std::string_view step(begin, static_cast<std::size_t>(std::find(begin, end, ' ') - begin));
+                place.fail(std::string(name) + " has " + shown(step) + ", expected " + std::to_string(numbers) +
                            " numbers from 0, parted by colons");
+            }
             add(values);
+            if (at == end) return;
         }
+    }
+
+    // Moves `at` to the blank behind the step, or to the end.
+    template <std::size_t numbers>
+    static bool parse_step(const char*& at, const char* end, std::array<double, numbers>& values) {
+        for (std::size_t i = 0; i < numbers; ++i) {
+            if (i > 0 && (at == end || *at++ != ':')) return false;
+            const std::from_chars_result result = std::from_chars(at, end, values[i]);
+            if (result.ec != std::errc() || !(values[i] >= 0)) return false;
+            at = result.ptr;
+        }
+        return at == end || *at == ' ';
     }
 
     Decision decision() const {
@@ -213,10 +210,10 @@ TraceRow parse_row(const Fields& fields) {
     row.work = {fields.count(people), fields.count(triangles), fields.count(points), fields.count(updates)};
     row.range = fields.number(range);
     row.predicted_ms = fields.prediction();
-    fields.steps<3>(fields.header.motion, motion_name, [&](const std::array<double, 3>& v) {
+    fields.steps<3>(fields.header.motion, motion_name, row.motion, [&](const std::array<double, 3>& v) {
         row.motion.push_back({v[0], whole(v[1]), v[2]});
     });
-    fields.steps<4>(fields.header.splats, splat_name, [&](const std::array<double, 4>& v) {
+    fields.steps<4>(fields.header.splats, splat_name, row.splats, [&](const std::array<double, 4>& v) {
         row.splats.push_back({v[0], whole(v[1]), whole(v[2]), v[3]});
     });
     return row;
@@ -246,25 +243,33 @@ void write_trace_row(std::ostream& out, const TraceRow& row) {
 }
 
 Trace read_trace(std::istream& in, const std::string& name) {
-    Trace trace;
-    trace.name = name;
-    Place place{name};
-    std::string line;
-    while (next_line(in, line, place) && line.starts_with('#')) read_setting(line, trace.settings);
-    if (!in) throw std::runtime_error(name + ": found no header line, expected " + std::string(header_line));
-    const Header header = parse_header(line, place);
+    LineReader lines(in, name);
+    return read_trace(lines);
+}
 
-    while (next_line(in, line, place)) {
-        const std::vector<std::string_view> fields = split(line);
+Trace read_trace(LineReader& lines) {
+    Trace trace;
+    trace.name = lines.name();
+    std::string_view line;
+    bool is_there = lines.next(line);
+    for (; is_there && line.starts_with('#'); is_there = lines.next(line)) read_setting(line, trace.settings);
+    if (!is_there) {
+        throw std::runtime_error(lines.name() + ": found no header line, expected " + std::string(header_line));
+    }
+    const Header header = parse_header(line, lines);
+
+    std::vector<std::string_view> fields;
+    while (lines.next(line)) {
+        split(line, fields);
         if (fields.size() != header.fields) {
-            place.fail("found " + std::to_string(fields.size()) + " fields, expected " + std::to_string(header.fields));
+            lines.fail("found " + std::to_string(fields.size()) + " fields, expected " + std::to_string(header.fields));
         }
-        const TraceRow row = parse_row({header, fields, place});
+        TraceRow row = parse_row({header, fields, lines});
         if (!trace.rows.empty() && row.frame <= trace.rows.back().frame) {
-            place.fail("found frame " + std::to_string(row.frame) + ", expected one after " +
+            lines.fail("found frame " + std::to_string(row.frame) + ", expected one after " +
                        std::to_string(trace.rows.back().frame));
         }
-        trace.rows.push_back(row);
+        trace.rows.push_back(std::move(row));
     }
     return trace;
 }

@@ -13,6 +13,8 @@
 
 namespace sfsm {
 
+class LineReader;
+
 struct TraceRow {
     std::int64_t frame = 0;
     double target_ms = 0;
@@ -46,5 +48,6 @@ void write_trace_row(std::ostream& out, const TraceRow& row);
 // Columns are found by name, unknown ones are skipped. Throws std::runtime_error naming `name`, the line and what was
 // expected there; the trace keeps `name`.
 Trace read_trace(std::istream& in, const std::string& name);
+Trace read_trace(LineReader& lines);  // from its first line on
 
 }  // namespace sfsm

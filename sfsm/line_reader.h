@@ -1,0 +1,55 @@
+// Lines of a stream, read in blocks: memory is a block and the longest line, whatever the length of the file.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <iosfwd>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sfsm {
+
+class LineReader {
+public:
+    static constexpr std::size_t longest_line = std::size_t{1} << 20;  // [bytes]
+
+    // Skips a UTF-8 byte order mark. `name` is the file's in messages; `in` must outlive the reader.
+    LineReader(std::istream& in, std::string name);
+
+    // The first bytes of the file (up to 64 KiB), to tell what it is. Before the first line only.
+    std::string_view head() const { return {buffer_.data() + begin_, end_ - begin_}; }
+
+    // The next line without its line end (LF or CR LF); valid until the next call. False: there is none. Throws
+    // std::runtime_error for a line over longest_line and where the stream can't be read.
+    bool next(std::string_view& line);
+
+    // The next byte, or -1 at the end: for readers of a format without lines. They are counted nevertheless.
+    int next_byte() {
+        if (begin_ == end_ && !fill()) return -1;
+        const char c = buffer_[begin_++];
+        newlines_ += c == '\n';
+        number_ = newlines_ + 1;
+        return static_cast<unsigned char>(c);
+    }
+
+    std::int64_t number() const { return number_; }      // of the last line, from 1; 0 before the first
+    bool has_line_end() const { return has_line_end_; }  // the last line; false: the file ends within it
+    const std::string& name() const { return name_; }
+
+    // Throw std::runtime_error "name:line: found_and_expected", of the last line or another one.
+    [[noreturn]] void fail(const std::string& found_and_expected) const { fail_at(number_, found_and_expected); }
+    [[noreturn]] void fail_at(std::int64_t line, const std::string& found_and_expected) const;
+
+private:
+    bool fill();
+
+    std::istream& in_;
+    std::string name_;
+    std::vector<char> buffer_;
+    std::size_t begin_ = 0, end_ = 0;  // of what is read and not yet handed out, in buffer_
+    std::int64_t number_ = 0, newlines_ = 0;
+    bool has_line_end_ = true;
+};
+
+}  // namespace sfsm
