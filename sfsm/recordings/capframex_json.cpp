@@ -1,0 +1,187 @@
+#include "sfsm/recordings/capframex_json.h"
+
+#include <array>
+#include <iterator>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "sfsm/line_reader.h"
+#include "sfsm/text.h"
+
+namespace sfsm {
+namespace {
+
+constexpr std::string_view expected =
+    ", expected CapFrameX's \"Runs\" with \"MsBetweenPresents\" in their \"CaptureData\"";
+
+// The arrays that are read. CPU and GPU times have one of two names.
+enum Array { presents, dropped, cpu, gpu };
+constexpr std::array<std::pair<std::string_view, Array>, 6> array_names = {{{"MsBetweenPresents", presents},
+                                                                            {"Dropped", dropped},
+                                                                            {"CpuActive", cpu},
+                                                                            {"MsCPUBusy", cpu},
+                                                                            {"GpuActive", gpu},
+                                                                            {"MsGPUBusy", gpu}}};
+using Run = std::array<std::vector<double>, 4>;
+
+// A file's bytes as the parser takes them.
+class Bytes {
+public:
+    using iterator_category = std::input_iterator_tag;
+    using value_type = char;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const char*;
+    using reference = char;
+
+    Bytes() = default;  // the end
+    explicit Bytes(LineReader& lines) : lines_(&lines), byte_(lines.next_byte()) {}
+
+    char operator*() const { return static_cast<char>(byte_); }
+    Bytes& operator++() {
+        byte_ = lines_->next_byte();
+        return *this;
+    }
+    bool operator==(const Bytes& other) const { return byte_ == other.byte_; }
+    bool operator!=(const Bytes& other) const { return byte_ != other.byte_; }
+
+private:
+    LineReader* lines_ = nullptr;
+    int byte_ = -1;
+};
+
+// Takes the parser's events. Knows where it is by the keys that lead there, one of each open object or array; an
+// array's is empty.
+class Events : public nlohmann::json_sax<nlohmann::json> {
+public:
+    explicit Events(const LineReader& lines) : lines_(lines) {}
+
+    bool null() override { return take(std::numeric_limits<double>::quiet_NaN()); }
+    bool boolean(bool value) override;
+    bool number_integer(number_integer_t value) override { return take(static_cast<double>(value)); }
+    bool number_unsigned(number_unsigned_t value) override { return take(static_cast<double>(value)); }
+    bool number_float(number_float_t value, const string_t&) override { return take(value); }
+    bool binary(binary_t&) override { return false; }  // JSON has none
+    bool string(string_t& value) override;
+
+    bool start_object(std::size_t) override { return enter(); }
+    bool end_object() override { return leave(); }
+    bool start_array(std::size_t) override;
+    bool end_array() override { return leave(); }
+    bool key(string_t& key) override {
+        path_.back() = key;
+        return true;
+    }
+
+    bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& error) override {
+        // Errors of a number too large have another id than those of the syntax.
+        lines_.fail(std::string(error.id == number_out_of_range ? "found a number too large for a time"
+                                                                : "found JSON that is damaged or cut short") +
+                    std::string(expected));
+    }
+
+    std::vector<Run> runs;
+    std::map<std::string, std::string> info;
+
+private:
+    static constexpr int number_out_of_range = 406;
+    static constexpr std::size_t deepest = 32;
+
+    bool enter();
+    bool leave();
+    bool take(double value);
+    bool is_value() const { return array_ && path_.size() == 5; }  // root, "Runs", run, "CaptureData", the array
+
+    const LineReader& lines_;
+    std::vector<std::string> path_;
+    std::optional<Array> array_;  // the one that we are in
+};
+
+bool Events::enter() {
+    if (path_.size() == deepest) {
+        lines_.fail("found JSON nested deeper than " + std::to_string(deepest) + std::string(expected));
+    }
+    if (path_.size() == 2 && path_[0] == "Runs") runs.emplace_back();
+    path_.emplace_back();
+    return true;
+}
+
+bool Events::leave() {
+    if (is_value()) array_.reset();
+    path_.pop_back();
+    return true;
+}
+
+bool Events::start_array(std::size_t) {
+    if (path_.size() == 4 && path_[0] == "Runs" && path_[2] == "CaptureData") {
+        for (const auto& [name, array] : array_names) {
+            if (path_[3] == name) array_ = array;
+        }
+    }
+    return enter();
+}
+
+bool Events::take(double value) {
+    if (is_value()) runs.back()[*array_].push_back(value);
+    return true;
+}
+
+bool Events::boolean(bool value) {
+    if (is_value() && array_ != dropped) {
+        lines_.fail("found true or false in " + shown(path_[3]) + ", expected a number");
+    }
+    return take(value ? 1 : 0);
+}
+
+// CapFrameX writes a NaN in quotes.
+bool Events::string(string_t& value) {
+    if (is_value()) {
+        if (value != "NaN") lines_.fail("found " + shown(value) + " in " + shown(path_[3]) + ", expected a number");
+        return take(std::numeric_limits<double>::quiet_NaN());
+    }
+    if (path_.size() == 2 && path_[0] == "Info") info[path_[1]] = value;
+    return true;
+}
+
+double part(const Run& run, Array array, std::size_t i) {
+    return run[array].empty() ? std::numeric_limits<double>::quiet_NaN() : run[array][i];
+}
+
+StreamFrames to_stream(const Run& run, const LineReader& lines) {
+    StreamFrames stream;
+    for (const Array array : {dropped, cpu, gpu}) {
+        if (run[array].empty() || run[array].size() == run[presents].size()) continue;
+        lines.fail("found arrays of " + std::to_string(run[presents].size()) + " and " +
+                   std::to_string(run[array].size()) + " entries in a run, expected all of one length");
+    }
+    stream.frames.reserve(run[presents].size());
+    for (std::size_t i = 0; i < run[presents].size(); ++i) {
+        const std::int64_t entry = static_cast<std::int64_t>(i) + 1;
+        if (part(run, dropped, i) == 1) stream.unshown.add(entry);
+        const FrameTimes told{run[presents][i], part(run, cpu, i), part(run, gpu, i)};
+        add_frame(stream, usable_times(told, stream, entry), 0);
+    }
+    return stream;
+}
+
+}  // namespace
+
+Collected read_capframex_json(LineReader& lines) {
+    Events events(lines);
+    nlohmann::json::sax_parse(Bytes(lines), Bytes(), &events);
+    Collected collected;
+    collected.format = "CapFrameX JSON";
+    collected.settings = events.info;
+    collected.place = "entry";
+    for (const Run& run : events.runs) {
+        StreamFrames& stream = collected.streams.emplace_back(to_stream(run, lines));
+        if (const auto name = events.info.find("ProcessName"); name != events.info.end()) stream.process = name->second;
+        if (events.runs.size() > 1) stream.swap_chain = "run " + std::to_string(collected.streams.size());
+    }
+    if (collected.streams.empty()) lines.fail("found JSON without runs" + std::string(expected));
+    return collected;
+}
+
+}  // namespace sfsm

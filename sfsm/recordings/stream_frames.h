@@ -1,0 +1,89 @@
+// What a recording's rows become, stream by stream, before one of them is chosen.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace sfsm {
+
+// [ms]; NaN: not told, or not usable.
+struct FrameTimes {
+    double frame_ms = 0;
+    double cpu_ms = std::numeric_limits<double>::quiet_NaN();
+    double gpu_ms = std::numeric_limits<double>::quiet_NaN();
+};
+
+// How often something was met, and where first: in which line, or of JSON which entry of the arrays.
+struct Tally {
+    std::int64_t count = 0, first = 0;
+
+    void add(std::int64_t place) {
+        if (count++ == 0) first = place;
+    }
+};
+
+// Presents that the application did not render stand between its own. What they took belongs to the application's
+// next frame, unless they only show a present again that the application's row tells of too.
+struct GeneratedFrames {
+    Tally rows;
+    std::string type;         // of the first, as the file has it
+    double waiting_ms = 0;    // of those since the application's last frame
+    double last_ms = 0;       // of these, the last present's part
+    std::size_t present = 0;  // hash of the last present's time, 0: unknown
+};
+
+struct StreamFrames {
+    std::string process, process_id, swap_chain;  // as the file has them
+    std::vector<FrameTimes> frames;
+    std::vector<double> elapsed;  // of sampled rows [ns], one a frame
+
+    Tally unshown, untold, unusable, unusable_parts;
+    GeneratedFrames generated;
+    std::vector<std::string> notes;  // of what else was done to the frames
+
+    double seconds() const;
+};
+
+// A frame of the application and one of somebody else's; `present` as in GeneratedFrames.
+void add_frame(StreamFrames& stream, FrameTimes times, std::size_t present);
+void add_generated(StreamFrames& stream, double ms, std::size_t present);
+
+// Times of a frame as they are told, into usable ones: a frame's in (0, 10 min], a part's in [0, 10 min], else NaN and
+// counted. `place` as in Tally.
+FrameTimes usable_times(FrameTimes told, StreamFrames& stream, std::int64_t place);
+
+// Frame generation that a tool takes for the application's own: a present that takes less than a tenth of both its
+// neighbours', up to three in a row, is put together with the frame before it, if a tenth or more of the presents are
+// such. The clock stays true.
+void merge_generated_presents(StreamFrames& stream);
+
+// Notes on all that was counted; `place`: "line" or "entry".
+std::vector<std::string> all_notes(const StreamFrames& stream, std::string_view place);
+
+// Streams by process, process id and swap chain, in the order in which they come up.
+class StreamTable {
+public:
+    StreamFrames& find(std::string_view process, std::string_view process_id, std::string_view swap_chain);
+    std::vector<StreamFrames>& streams() { return streams_; }
+
+private:
+    std::vector<StreamFrames> streams_;
+    std::unordered_multimap<std::size_t, std::size_t> by_hash_;  // to places in streams_
+    std::size_t last_ = 0;
+};
+
+// All that a file holds.
+struct Collected {
+    std::string format;
+    std::map<std::string, std::string> settings;  // what the file says of itself
+    std::vector<StreamFrames> streams;
+    std::vector<std::string> notes;  // on the file
+    std::string_view place = "line";
+};
+
+}  // namespace sfsm

@@ -1,0 +1,269 @@
+// Every format that is read, from what its tool writes.
+#include <functional>
+
+#include "tests/recordings/tables.h"
+
+namespace sfsm {
+namespace {
+
+// The three frames of tables.h, and three of every format.
+void expect_three_frames(const Recording& recording, bool has_cpu, bool has_gpu) {
+    ASSERT_EQ(recording.trace.rows.size(), 3u);
+    for (int i = 0; i < 3; ++i) {
+        const TraceRow& row = recording.trace.rows[static_cast<std::size_t>(i)];
+        const double rounding = 1e-9;  // of FRAPS's differences
+        EXPECT_EQ(row.frame, i);
+        EXPECT_NEAR(row.frame_ms, 16.1 + 0.1 * i, rounding);
+        EXPECT_TRUE(std::isnan(row.target_ms));
+        EXPECT_EQ(row.range, 0);
+        EXPECT_EQ(row.decision, Decision{});
+        EXPECT_EQ(row.work, Work{});
+        if (has_cpu) {
+            EXPECT_NEAR(row.cpu_ms, 5.1 + 0.1 * i, rounding);
+        } else {
+            EXPECT_TRUE(std::isnan(row.cpu_ms));
+        }
+        if (has_gpu) {
+            EXPECT_NEAR(row.gpu_ms, 3.1 + 0.1 * i, rounding);
+        } else {
+            EXPECT_TRUE(std::isnan(row.gpu_ms));
+        }
+    }
+    EXPECT_FALSE(recording.has_work());
+    EXPECT_EQ(recording.trace.name, "r.csv");
+    EXPECT_EQ(recording.trace.settings.at("format"), recording.format);
+    EXPECT_EQ(recording.streams.at(recording.chosen).frames, 3);
+    EXPECT_NEAR(recording.streams.at(recording.chosen).seconds, 0.0486, 1e-12);
+}
+
+void expect_application(const Recording& recording) {
+    const Stream& stream = recording.streams.at(recording.chosen);
+    EXPECT_EQ(stream.process, "a.exe");
+    EXPECT_EQ(stream.process_id, "12");
+    EXPECT_EQ(stream.swap_chain, "0xA0");
+    EXPECT_EQ(recording.trace.settings.at("process"), "a.exe");
+    EXPECT_EQ(recording.trace.settings.at("process_id"), "12");
+    EXPECT_EQ(recording.trace.settings.at("swap_chain"), "0xA0");
+}
+
+TEST(Formats, PresentMon1) {
+    const Recording recording = read(presentmon_1().text());
+    EXPECT_EQ(recording.format, "PresentMon 1.x");
+    expect_three_frames(recording, false, true);
+    expect_application(recording);
+    EXPECT_TRUE(has_note(recording, "1 frame dropped, never shown (in line 3)"));
+}
+
+TEST(Formats, PresentMon2) {
+    const Recording recording = read(presentmon_2().text());
+    EXPECT_EQ(recording.format, "PresentMon 2.x");
+    expect_three_frames(recording, true, true);
+    expect_application(recording);
+    EXPECT_TRUE(has_note(recording, "1 frame dropped, never shown (in line 3)"));
+}
+
+TEST(Formats, PresentMonCurrent) {
+    const Recording recording = read(presentmon_current().text());
+    EXPECT_EQ(recording.format, "PresentMon current");
+    expect_three_frames(recording, true, true);
+    expect_application(recording);
+    EXPECT_TRUE(has_note(recording, "1 frame dropped, never shown (in line 3)"));
+}
+
+TEST(Formats, OcatWithHardwareInItsFirstRowOnly) {
+    Table table = presentmon_1();
+    table.columns.insert(table.columns.end(), {"Motherboard", "OS", "Comment"});
+    table.rows[0].insert(table.rows[0].end(), {"\"MPG Z390, \"\"GAMING\"\"\"", "\"Windows 10, 1809\"", "Test"});
+    const Recording recording = read(table.text());
+    EXPECT_EQ(recording.format, "OCAT");
+    expect_three_frames(recording, false, true);
+    expect_application(recording);
+}
+
+TEST(Formats, CapFrameXCsvWithItsPreamble) {
+    Table table = presentmon_1();
+    table.preamble = {"//GameName=Far Cry", "//GPU #=1", "//Comment=a = b"};
+    const Recording recording = read(table.text());
+    EXPECT_EQ(recording.format, "CapFrameX CSV");
+    expect_three_frames(recording, false, true);
+    expect_application(recording);
+    EXPECT_EQ(recording.trace.settings.at("GameName"), "Far Cry");
+    EXPECT_EQ(recording.trace.settings.at("GPU #"), "1");
+    EXPECT_EQ(recording.trace.settings.at("Comment"), "a = b");
+}
+
+TEST(Formats, FrameView) {
+    Table table = presentmon_1();
+    table.columns.insert(table.columns.begin() + 1, {"GPU", "CPU", "Resolution"});
+    for (std::vector<std::string>& row : table.rows) row.insert(row.begin() + 1, {"RTX 4090", "i9", "3840x2160"});
+    table.columns.push_back("MsPCLatency");
+    for (std::vector<std::string>& row : table.rows) row.push_back("NA");
+    const Recording recording = read(table.text());
+    EXPECT_EQ(recording.format, "FrameView");
+    expect_three_frames(recording, false, true);
+    expect_application(recording);
+}
+
+TEST(Formats, MangoHudOfEveryFrame) {
+    const Recording recording = read(mangohud().text());
+    EXPECT_EQ(recording.format, "MangoHud");
+    expect_three_frames(recording, false, false);
+    EXPECT_EQ(recording.trace.settings.at("gpu"), "RX 6800");
+    EXPECT_TRUE(recording.notes.empty());
+}
+
+TEST(Formats, MangoHudWithAVersionedLog) {
+    Table table = mangohud();
+    table.preamble = {"v1",
+                      "0.7.1",
+                      "---------------------SYSTEM INFO---------------------",
+                      table.preamble[0],
+                      table.preamble[1],
+                      "--------------------FRAME METRICS--------------------"};
+    const Recording recording = read(table.text());
+    expect_three_frames(recording, false, false);
+    EXPECT_EQ(recording.trace.settings.at("kernel"), "6.1");
+    const Recording twice = read(table.text() + table.text());
+    EXPECT_EQ(twice.trace.rows.size(), 6u);
+    EXPECT_TRUE(has_note(twice, "header found again in line 17"));
+}
+
+TEST(Formats, MangoHudInMicrosecondsAsItWasOnce) {
+    Table table = mangohud();
+    table.rows = {{"62.1118", "16100", "20", "90", "16100000"},
+                  {"61.7284", "16200", "21", "91", "32300000"},
+                  {"61.3497", "16300", "22", "92", "48600000"}};
+    expect_three_frames(read(table.text()), false, false);
+}
+
+TEST(Formats, MangoHudSampledStandsForTheFramesThatFit) {
+    Table table = mangohud();
+    table.rows.clear();
+    for (int i = 0; i < 50; ++i)
+        table.rows.push_back({"50", "20", "20", "90", std::to_string(100'000'000LL * (i + 1))});
+    for (int i = 0; i < 10; ++i)  // 100 ms hold two frames of 40 ms and a half: the halves are carried on
+        table.rows.push_back({"25", "40", "20", "90", std::to_string(5'000'000'000LL + 100'000'000LL * (i + 1))});
+    const Recording recording = read(table.text());
+    EXPECT_EQ(recording.trace.rows.size(), 1u + 49 * 5 + 25);
+    EXPECT_NEAR(recording.streams[0].seconds, 0.02 + 4.9 + 1, 1e-9);
+    EXPECT_TRUE(has_note(recording, "sampled: 60 rows stand for 271 frames"));
+}
+
+TEST(Formats, MangoHudSampledMoreOftenThanItsFrames) {
+    Table table = mangohud();
+    table.rows.clear();
+    for (int i = 0; i < 100; ++i) table.rows.push_back({"50", "20", "20", "90", std::to_string(5'000'000LL * i)});
+    const Recording recording = read(table.text());
+    EXPECT_NEAR(recording.streams[0].seconds, 0.5, 0.03);
+}
+
+TEST(Formats, MangoHudsPausesStandForNoMoreThanAThousandFrames) {
+    Table table = mangohud();
+    table.rows.clear();
+    for (int i = 0; i < 50; ++i) table.rows.push_back({"50", "20", "1", "9", std::to_string(100'000'000LL * (i + 1))});
+    table.rows.push_back({"50", "20", "1", "9", "9000000000000"});
+    const Recording recording = read(table.text());
+    EXPECT_EQ(recording.trace.rows.size(), 1u + 49 * 5 + 1000);
+    EXPECT_TRUE(has_note(recording, "pauses left out: 1"));
+}
+
+TEST(Formats, FrapsClockGivesAFrameLess) {
+    const Recording recording = read(fraps().text());
+    EXPECT_EQ(recording.format, "FRAPS");
+    expect_three_frames(recording, false, false);
+    EXPECT_EQ(recording.streams.size(), 1u);
+    EXPECT_EQ(recording.streams[0].process, "");
+}
+
+TEST(Formats, FrapsPutTogetherBeginsItsClockAgain) {
+    const Recording recording = read(fraps().text() + fraps().text());
+    EXPECT_EQ(recording.trace.rows.size(), 6u);
+    EXPECT_NEAR(recording.streams[0].seconds, 2 * 0.0486, 1e-12);
+}
+
+std::string capframex_json(const std::string& runs) {
+    return "{\"Hash\":\"x\",\"Info\":{\"AppVersion\":\"1.7.3\",\"ProcessName\":\"a.exe\",\"GPU\":\"RTX\"},\"Runs\":[" +
+           runs + "]}";
+}
+
+std::string json_run(const std::string& times, const std::string& more = "") {
+    return "{\"Hash\":\"y\",\"CaptureData\":{\"TimeInSeconds\":[0,1,2],\"MsBetweenPresents\":[" + times + "]" + more +
+           "},\"SensorData2\":{\"GpuUsage\":{\"Values\":[1,2]}}}";
+}
+
+TEST(Formats, CapFrameXJson) {
+    const Recording recording = read(
+        capframex_json(json_run("16.1,16.2,16.3",
+                                ",\"Dropped\":[false,true,false],\"GpuActive\":[3.1,3.2,3.3],\"CpuActive\":[5.1,5.2,"
+                                "5.3]")));
+    EXPECT_EQ(recording.format, "CapFrameX JSON");
+    expect_three_frames(recording, true, true);
+    EXPECT_EQ(recording.trace.settings.at("GPU"), "RTX");
+    EXPECT_EQ(recording.streams[0].process, "a.exe");
+    EXPECT_TRUE(has_note(recording, "1 frame dropped, never shown (in entry 2)"));
+}
+
+TEST(Formats, CapFrameXJsonOfSeveralRunsHasAStreamEach) {
+    const std::string text = "\xEF\xBB\xBF" + capframex_json(json_run("1,2") + ",\r\n" + json_run("16.1,16.2,16.3"));
+    const Recording busiest = read(text);
+    expect_three_frames(busiest, false, false);
+    ASSERT_EQ(busiest.streams.size(), 2u);
+    EXPECT_EQ(busiest.streams[0].swap_chain, "run 2");
+    EXPECT_EQ(frame_times(read(text, {"run 1"})), (std::vector<double>{1, 2}));
+}
+
+TEST(Formats, CapFrameXJsonKeepsWhatItCouldNotMeasureAsNaN) {
+    const Recording recording = read(capframex_json(json_run("16.1,\"NaN\",null,-1")));
+    ASSERT_EQ(recording.trace.rows.size(), 4u);
+    EXPECT_EQ(recording.trace.rows[0].frame_ms, 16.1);
+    for (const std::size_t i : {1u, 2u, 3u}) EXPECT_TRUE(std::isnan(recording.trace.rows[i].frame_ms));
+    EXPECT_TRUE(has_note(recording, "2 frames without a time (the first in entry 2)"));
+}
+
+TEST(Formats, DamagedJsonIsRefusedByItsLine) {
+    const std::string deep(100, '[');
+    struct Bad {
+        std::string text;
+        const char* said;
+    };
+    const Bad bads[] = {
+        {"{\n\"Runs\":[", "r.csv:2: found JSON that is damaged or cut short, expected CapFrameX's \"Runs\""},
+        {"{}", "found JSON without runs"},
+        {"[1,2]", "found JSON without runs"},
+        {capframex_json(json_run("16.1,NaN")), "damaged"},
+        {capframex_json(json_run("16.1,1e999")), "a number too large"},
+        {capframex_json(json_run("16.1,true")), "found true or false in 'MsBetweenPresents'"},
+        {capframex_json(json_run("16.1,\"x\"")), "found 'x' in 'MsBetweenPresents', expected a number"},
+        {capframex_json(json_run("16.1", ",\"Dropped\":[true,true]")), "found arrays of 1 and 2 entries"},
+        {capframex_json(json_run("")), "found no frame of CapFrameX JSON"},
+        {"{\"Runs\":" + deep, "nested deeper than 32"},
+        {capframex_json(json_run("16.1")) + "x", "damaged"},
+    };
+    for (const Bad& bad : bads) EXPECT_TRUE(contains(refusal(bad.text), bad.said)) << refusal(bad.text);
+}
+
+TEST(Formats, OurOwnTraces) {
+    std::ostringstream out;
+    write_trace_header(out, {{"law", "paper"}});
+    TraceRow row;
+    row.target_ms = 16.6;
+    row.frame_ms = 20;
+    row.work = {1, 2, 3, 4};
+    for (row.frame = 5; row.frame < 9; ++row.frame) write_trace_row(out, row);
+    for (const char* mark : {"", "\xEF\xBB\xBF"}) {
+        const Recording recording = read(mark + out.str());
+        EXPECT_EQ(recording.format, "trace");
+        EXPECT_TRUE(recording.has_work());
+        ASSERT_EQ(recording.trace.rows.size(), 4u);
+        EXPECT_EQ(recording.trace.rows[0].frame, 5);
+        EXPECT_EQ(recording.trace.rows[0].work, row.work);
+        EXPECT_EQ(recording.trace.settings.at("law"), "paper");
+        EXPECT_EQ(recording.streams.at(0).frames, 4);
+        EXPECT_NEAR(recording.streams.at(0).seconds, 0.08, 1e-12);
+    }
+    EXPECT_TRUE(contains(refusal(out.str() + "1,2\n"), "r.csv:7: found 2 fields, expected 16"));
+    EXPECT_TRUE(contains(refusal(out.str(), {"a.exe"}), "expected none: trace does not tell them"));
+}
+
+}  // namespace
+}  // namespace sfsm

@@ -1,0 +1,313 @@
+// What files in the wild have beside well-formed rows, and what is refused.
+#include <algorithm>
+#include <random>
+
+#include "tests/recordings/tables.h"
+
+namespace sfsm {
+namespace {
+
+std::vector<Table> all_tables() {
+    return {presentmon_1(), presentmon_2(), presentmon_current(), mangohud(), fraps()};
+}
+
+// Same frames and streams; notes may name other lines.
+void expect_same(const Recording& a, const Recording& b) {
+    EXPECT_EQ(a.format, b.format);
+    ASSERT_EQ(a.trace.rows.size(), b.trace.rows.size());
+    for (std::size_t i = 0; i < a.trace.rows.size(); ++i) {
+        const TraceRow &x = a.trace.rows[i], &y = b.trace.rows[i];
+        for (double TraceRow::*time : {&TraceRow::frame_ms, &TraceRow::cpu_ms, &TraceRow::gpu_ms}) {
+            EXPECT_TRUE(x.*time == y.*time || (std::isnan(x.*time) && std::isnan(y.*time))) << "frame " << i;
+        }
+    }
+    ASSERT_EQ(a.streams.size(), b.streams.size());
+    EXPECT_EQ(a.streams[a.chosen].process, b.streams[b.chosen].process);
+    EXPECT_EQ(a.trace.settings, b.trace.settings);
+    EXPECT_EQ(a.notes.size(), b.notes.size());
+}
+
+TEST(Quirks, TheOrderOfColumnsChangesNothing) {
+    std::mt19937_64 random(1);
+    for (const Table& table : all_tables()) {
+        const Recording expected = read(table.text());
+        for (int trial = 0; trial < 50; ++trial) {
+            Table other = table;
+            for (std::size_t i = other.columns.size(); i > 1; --i) {
+                const std::size_t k = random() % i;
+                std::swap(other.columns[i - 1], other.columns[k]);
+                for (std::vector<std::string>& row : other.rows) std::swap(row[i - 1], row[k]);
+            }
+            expect_same(read(other.text()), expected);
+        }
+    }
+}
+
+TEST(Quirks, LineEndsByteOrderMarkBlankLinesAndLetterCaseChangeNothing) {
+    for (const Table& table : all_tables()) {
+        const Recording expected = read(table.text());
+        Table other = table;
+        other.line_end = "\r\n";
+        expect_same(read(other.text()), expected);
+        expect_same(read("\xEF\xBB\xBF" + other.text()), expected);
+        other.line_end = "\n\n \r\n";
+        expect_same(read(other.text()), expected);
+        other = table;
+        for (std::string& column : other.columns) {
+            std::transform(column.begin(), column.end(), column.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+        }
+        expect_same(read(other.text()), expected);
+    }
+}
+
+TEST(Quirks, SemicolonsTabsQuotesAndDecimalCommasChangeNothing) {
+    for (const Table& table : all_tables()) {
+        const Recording expected = read(table.text());
+        Table commas = table;
+        for (std::vector<std::string>& row : commas.rows) {
+            for (std::string& field : row) {
+                if (field != "a.exe") std::replace(field.begin(), field.end(), '.', ',');
+            }
+        }
+        for (const char* separator : {";", "\t"}) {
+            Table other = table;
+            other.separator = commas.separator = separator;
+            expect_same(read(other.text()), expected);
+            expect_same(read(commas.text()), expected);
+        }
+        for (std::vector<std::string>& row : commas.rows) {
+            for (std::string& field : row) field = '"' + field + '"';
+        }
+        commas.separator = ",";
+        expect_same(read(commas.text()), expected);
+    }
+}
+
+TEST(Quirks, QuotedNamesKeepTheirCommasAndQuotes) {
+    Table table = presentmon_1();
+    for (std::vector<std::string>& row : table.rows) row[0] = R"("a ""b"", c.exe")";
+    EXPECT_EQ(read(table.text()).streams[0].process, "a \"b\", c.exe");
+}
+
+TEST(Quirks, DecimalCommasTakenForSeparatorsAreRefused) {
+    Table table = presentmon_1();
+    table.rows[1][6] = "16,2";
+    EXPECT_TRUE(contains(refusal(table.text()), "r.csv:3: found 10 fields, expected 9 at most"));
+    table = presentmon_1();
+    table.rows[1].insert(table.rows[1].end(), {"", " ", ""});  // but empty fields at the end are nothing
+    EXPECT_EQ(read(table.text()).trace.rows.size(), 3u);
+}
+
+TEST(Quirks, FilesPutTogetherFindTheirColumnsAgain) {
+    for (const Table& table : all_tables()) {
+        const Recording once = read(table.text());
+        Table other = table;
+        std::swap(other.columns.front(), other.columns.back());
+        for (std::vector<std::string>& row : other.rows) std::swap(row.front(), row.back());
+        const Recording twice = read(table.text() + other.text());
+        EXPECT_EQ(twice.trace.rows.size(), 2 * once.trace.rows.size());
+        EXPECT_NEAR(twice.streams[0].seconds, 2 * once.streams[0].seconds, 1e-12);
+        EXPECT_TRUE(has_note(twice, "header found again in line"));
+    }
+    EXPECT_TRUE(contains(refusal(presentmon_1().text() + presentmon_2().text()),
+                         "r.csv:5: found the header of PresentMon 2.x"));
+    Table table = presentmon_1();
+    table.preamble = {"//GPU=1", "//CPU=2"};
+    EXPECT_EQ(read(table.text() + table.text()).trace.rows.size(), 6u);
+}
+
+TEST(Quirks, StreamsAreToldApartAndTheBusiestIsTaken) {
+    Table table = presentmon_1();
+    table.rows.push_back({"dwm.exe", "7", "0xB0", "DXGI", "0", "0.1", "8", "8", "1"});
+    table.rows.push_back({"a.exe", "12", "0xC0", "DXGI", "0", "0.1", "9", "9", "1"});
+    table.rows.insert(table.rows.begin() + 1, {"dwm.exe", "7", "0xB0", "DXGI", "0", "0.0", "7", "7", "1"});
+    const Recording recording = read(table.text());
+    EXPECT_EQ(frame_times(recording), (std::vector<double>{16.1, 16.2, 16.3}));
+    ASSERT_EQ(recording.streams.size(), 3u);
+    EXPECT_EQ(recording.streams[1].process, "dwm.exe");
+    EXPECT_EQ(recording.streams[1].frames, 2);
+    EXPECT_NEAR(recording.streams[1].seconds, 0.015, 1e-12);
+    for (const char* name : {"DWM.exe", "7", "0xb0"}) {
+        const Recording other = read(table.text(), {name});
+        EXPECT_EQ(frame_times(other), (std::vector<double>{7, 8})) << name;
+        EXPECT_EQ(other.chosen, 1u);
+        EXPECT_EQ(other.trace.settings.at("process"), "dwm.exe");
+    }
+    EXPECT_EQ(frame_times(read(table.text(), {"a.exe"})).size(), 3u);
+    EXPECT_EQ(frame_times(read(table.text(), {"0xC0"})), (std::vector<double>{9}));
+}
+
+TEST(Quirks, AStreamThatIsNotThereIsRefusedWithThoseThatAre) {
+    Table table = presentmon_1();
+    for (int i = 0; i < 10; ++i)
+        table.rows.push_back({"p" + std::to_string(i), std::to_string(i), "0x0", "", "0", "0", "5", "5", "1"});
+    const std::string message = refusal(table.text(), {"dwm"});
+    EXPECT_TRUE(contains(message, "'dwm', expected one of 'a.exe', id '12', swap chain '0xA0': 3 frames; 'p0'"));
+    EXPECT_TRUE(contains(message, "'p6'")) << message;
+    EXPECT_FALSE(contains(message, "'p7'")) << message;
+    EXPECT_TRUE(contains(message, "and 3 more")) << message;
+    EXPECT_TRUE(contains(refusal(fraps().text(), {"dwm"}), "expected none: FRAPS does not tell them"));
+}
+
+TEST(Quirks, TimesThatCannotBeAreNaNAndCounted) {
+    Table table = presentmon_1();
+    for (const char* bad : {"0.000", "-1", "600001", "inf", "1e300"}) {
+        table.rows[1][6] = bad;
+        const Recording recording = read(table.text());
+        ASSERT_EQ(recording.trace.rows.size(), 3u);
+        EXPECT_TRUE(std::isnan(recording.trace.rows[1].frame_ms)) << bad;
+        EXPECT_TRUE(has_note(recording, "1 frame with a time not over 0 or over 10 minutes (in line 3)")) << bad;
+        EXPECT_NEAR(recording.streams[0].seconds, 0.0324, 1e-12);
+    }
+    for (const char* untold : {"NA", "na", "N/A", "nan"}) {
+        table.rows[1][6] = untold;
+        const Recording recording = read(table.text());
+        EXPECT_TRUE(std::isnan(recording.trace.rows[1].frame_ms)) << untold;
+        EXPECT_TRUE(has_note(recording, "1 frame without a time (in line 3)")) << untold;
+    }
+}
+
+TEST(Quirks, PartsOfAFrameMayBeUntold) {
+    Table table = presentmon_2();
+    table.rows[0][6] = "";
+    table.rows[1][6] = "NA";
+    table.rows[2][6] = "-3";
+    const Recording recording = read(table.text());
+    for (const TraceRow& row : recording.trace.rows) EXPECT_TRUE(std::isnan(row.cpu_ms));
+    EXPECT_EQ(recording.trace.rows[2].gpu_ms, 3.3);
+    EXPECT_TRUE(has_note(recording, "1 CPU or GPU time under 0 or over 10 minutes (in line 4)"));
+}
+
+TEST(Quirks, ClocksThatStandOrRunBackGiveNaN) {
+    Table table = fraps();
+    table.rows.push_back({"5", "48.6"});
+    table.rows.push_back({"6", "40"});
+    table.rows.push_back({"7", "50"});
+    const Recording recording = read(table.text());
+    ASSERT_EQ(recording.trace.rows.size(), 6u);
+    EXPECT_TRUE(std::isnan(recording.trace.rows[3].frame_ms) && std::isnan(recording.trace.rows[4].frame_ms));
+    EXPECT_EQ(recording.trace.rows[5].frame_ms, 10);
+}
+
+Table generated_frames() {
+    Table table = presentmon_current();
+    table.rows.clear();
+    // Each present of the application is shown three times, by rows that all bear its time.
+    for (int i = 1; i <= 3; ++i) {
+        const std::string time = std::to_string(20 * i);
+        for (const char* type : {"Intel XeSS-FG", "Application", "Intel XeSS-FG"})
+            table.rows.push_back({"a.exe", "12", "0xA0", "DXGI", type, time, "20", "30", "5", "3"});
+    }
+    return table;
+}
+
+TEST(Quirks, GeneratedFramesOfOnePresentAreLeftOut) {
+    const Recording recording = read(generated_frames().text());
+    EXPECT_EQ(frame_times(recording), (std::vector<double>{20, 20, 20}));
+    EXPECT_TRUE(has_note(recording, "6 rows of generated frames, 'Intel XeSS-FG' (the first in line 2): left out"));
+}
+
+TEST(Quirks, GeneratedFramesPresentedApartGiveTheirTimeToTheNext) {
+    Table table = generated_frames();
+    double sum = 0;
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+        table.rows[i][4] = i % 3 == 2 ? "Application" : "AMD_AFMF";
+        table.rows[i][5] = std::to_string(7 * i);
+        table.rows[i][6] = std::to_string(i + 1);
+        sum += static_cast<double>(i + 1);
+    }
+    const Recording recording = read(table.text());
+    EXPECT_EQ(frame_times(recording), (std::vector<double>{1 + 2 + 3, 4 + 5 + 6, 7 + 8 + 9}));
+    EXPECT_NEAR(recording.streams[0].seconds, sum / 1000, 1e-12);
+    for (std::vector<std::string>& row : table.rows) row[4] = "AMD_AFMF";
+    EXPECT_TRUE(contains(refusal(table.text()), "found no frame of PresentMon current"));
+}
+
+Table of_times(const std::vector<double>& times) {
+    Table table = presentmon_1();
+    table.rows.clear();
+    for (const double ms : times) {
+        table.rows.push_back({"a.exe", "12", "0xA0", "DXGI", "0", "0", std::to_string(ms), "5", "3"});
+    }
+    return table;
+}
+
+TEST(Quirks, PresentsFarShorterThanThoseBesideAreFrameGeneration) {
+    std::vector<double> doubled, quadrupled;
+    for (int i = 0; i < 20; ++i) {
+        doubled.insert(doubled.end(), {16.5, 0.25});
+        quadrupled.insert(quadrupled.end(), {16.5, 0.25, 0.25, 0.25});
+    }
+    const Recording two = read(of_times(doubled).text()), four = read(of_times(quadrupled).text());
+    EXPECT_EQ(frame_times(two), std::vector<double>(20, 16.75));
+    EXPECT_EQ(frame_times(four), std::vector<double>(20, 17.25));
+    EXPECT_TRUE(has_note(two, "20 presents are far shorter")) << two.notes[0];
+    EXPECT_EQ(two.streams[0].frames, 20);
+}
+
+TEST(Quirks, AFewShortPresentsAreNoFrameGeneration) {
+    std::vector<double> times(40, 16.5);
+    times[7] = times[20] = 0.25;
+    EXPECT_EQ(frame_times(read(of_times(times).text())), times);
+    times[9] = 400;  // nor is what stands beside one long frame
+    EXPECT_EQ(frame_times(read(of_times(times).text())), times);
+}
+
+TEST(Quirks, ALastLineCutShortIsLeftOut) {
+    Table table = presentmon_1();
+    table.rows.push_back(table.rows[0]);
+    const std::string text = table.text();
+    const std::string whole_fields = text.substr(0, text.size() - 2);  // within msGPUActive, which is read
+    const Recording recording = read(whole_fields);
+    EXPECT_EQ(recording.trace.rows.size(), 3u);
+    EXPECT_TRUE(has_note(recording, "line 5, the last, is cut short: left out"));
+    table.columns.push_back("QPCTime");
+    for (std::vector<std::string>& row : table.rows) row.push_back("2076674276");
+    const std::string longer = table.text();
+    EXPECT_EQ(read(longer.substr(0, longer.size() - 5)).trace.rows.size(), 4u);  // in a column that is not read
+}
+
+TEST(Quirks, RubbishIsRefusedByItsLine) {
+    struct Bad {
+        std::string text;
+        const char* said;
+    };
+    const std::string header = "Application,MsBetweenPresents,Dropped\n", row = "a,16,0\n";
+    const Bad bads[] = {
+        {"", "r.csv:1: found an empty file, expected one of our own traces, CapFrameX CSV, FrameView, OCAT"},
+        {" \r\n\n", "r.csv:1: found an empty file"},
+        {"\n\nhello\nworld\n", "r.csv:3: found no header but 'hello', expected one of our own traces"},
+        {std::string("MZ\0\1", 4), "r.csv:1: found a binary file, expected one of our own"},
+        {std::string("\xFF\xFE"
+                     "A\0p\0",
+                     6),
+         "r.csv:1: found UTF-16 text, expected UTF-8"},
+        {"\x1b[31m\x07" + std::string(100, 'x'), "found no header but '?[31m?xxx"},
+        {header, "r.csv:1: found no row behind the header of PresentMon 1.x, expected at least one"},
+        {"Frame, Time (ms)\n1, 0\n", "found no frame of FRAPS"},
+        {"0.1% Min FPS,1% Min FPS,Average FPS\n10,20,30\n", "found no header but '0.1% Min FPS"},
+        {"MsBetweenPresents,Application,msbetweenpresents\n", "r.csv:1: found two columns 'MsBetweenPresents'"},
+        {header + row + "a,16\n" + row, "r.csv:3: found 2 fields, expected 3 or more"},
+        {header + row + "a,sixteen,0\n", "r.csv:3: MsBetweenPresents is 'sixteen', expected a number or NA"},
+        {header + row + "a,,0\n", "r.csv:3: MsBetweenPresents is '', expected a number or NA"},
+        {header + row + "a,1e999,0\n", "r.csv:3: MsBetweenPresents is '1e999'"},
+        {header + row + "a,16,maybe\n", "r.csv:3: Dropped is 'maybe', expected 0 or 1"},
+        {header + row + "\"a,16,0\n" + row, "r.csv:3: found 1 fields"},
+        {header + row + std::string(2'000'000, 'x') + "\n", "r.csv:3: found a line over 1 MiB"},
+        {"fps,frametime,elapsed\nx,16,1\n", "r.csv:2: fps is 'x'"},
+    };
+    for (const Bad& bad : bads) {
+        const std::string message = refusal(bad.text);
+        EXPECT_TRUE(contains(message, bad.said)) << message << "\n  not: " << bad.said;
+    }
+}
+
+TEST(Quirks, APreambleHasAnEnd) {
+    std::string text;
+    for (int i = 0; i < 1000; ++i) text += "//Key=Value\n";
+    EXPECT_TRUE(contains(refusal(text + presentmon_1().text()), "r.csv:1: found no header but '//Key=Value'"));
+}
+
+}  // namespace
+}  // namespace sfsm
