@@ -12,7 +12,7 @@
 
 namespace sfsm {
 
-// What one swap chain of one process presented.
+// What one swap chain of one process presented; of CapFrameX JSON with several runs one run, as swap chain "run 1" ...
 struct Stream {
     std::string process, process_id, swap_chain;  // empty where the tool doesn't say
     std::int64_t frames = 0;
@@ -20,11 +20,12 @@ struct Stream {
 };
 
 struct Recording {
-    std::string format;  // "trace", "PresentMon 1.x", "OCAT", ...
+    std::string format;  // "trace", "CapFrameX JSON" or a name of formats.cpp: "PresentMon 1.x", "OCAT" ...
 
     // One of ours as it is. Else of the chosen stream: frames counted from 0, frame_ms, and cpu_ms and gpu_ms [ms]
     // where the tool tells them; NaN: not told. Target (NaN), range (0), decisions and work are those of a row that has
-    // none. Settings: format, process, process_id, swap_chain, and what the file says of itself before its header.
+    // none. Settings: format, process, process_id, swap_chain (empty: not told), and what the file says of itself
+    // before its header.
     Trace trace;
 
     std::vector<Stream> streams;     // all in the file, most frames first; one nameless where the tool has no processes
