@@ -32,6 +32,10 @@ std::optional<double> told_number(std::string_view text) {
     return parse_double(with_point);
 }
 
+bool is_comment(std::string_view line) {
+    return line.starts_with('#') || line.starts_with("//");
+}
+
 // Lines that MangoHud writes before its header.
 bool begins_mangohud(std::string_view line) {
     return line.starts_with("os,") || line == "v1" || line.starts_with("-----");
@@ -45,6 +49,7 @@ public:
 
 private:
     void seek_header(std::string_view line);
+    void keep_preamble(std::string_view line);
     void begin_table(const Header& header, std::string_view line);
     void read_preamble();
     void take_line(std::string_view line);
@@ -65,7 +70,8 @@ private:
 
     LineReader& lines_;
     std::vector<std::string> preamble_;  // lines before the header
-    std::int64_t preamble_begin_ = 0;    // number of the first
+    std::int64_t suspect_ = 0;           // number of the first of them that is no comment, else of the first
+    std::string suspect_text_;
     std::optional<Header> header_;
     std::optional<RowSplitter> row_;
     bool is_seeking_ = true;
@@ -102,9 +108,15 @@ void CsvReader::seek_header(std::string_view line) {
         begin_table(*header, line);
         return;
     }
-    if (preamble_.empty()) preamble_begin_ = lines_.number();
-    preamble_.emplace_back(line.substr(0, longest_preamble_line));
+    keep_preamble(line);
     if (preamble_.size() > longest_preamble) fail_without_header();
+}
+
+void CsvReader::keep_preamble(std::string_view line) {
+    preamble_.emplace_back(line.substr(0, longest_preamble_line));
+    if (preamble_.size() > 1 && (is_comment(line) || !is_comment(suspect_text_))) return;
+    suspect_ = lines_.number();
+    suspect_text_ = preamble_.back();
 }
 
 void CsvReader::begin_table(const Header& header, std::string_view line) {
@@ -164,8 +176,7 @@ bool CsvReader::begins_again(std::string_view line) {
     if (line.starts_with("//") && header_->format->has_preamble) return true;
     is_seeking_ = header_->format->rows == Rows::samples && begins_mangohud(line);
     if (is_seeking_) {
-        preamble_begin_ = lines_.number();
-        preamble_.emplace_back(line.substr(0, longest_preamble_line));
+        keep_preamble(line);
         return true;
     }
     const std::optional<Header> header = find_header(line, header_->format->has_preamble, lines_);
@@ -259,7 +270,7 @@ void CsvReader::fail_field(Column column, const char* expected) const {
 void CsvReader::fail_without_header() const {
     const std::string expected = ", expected " + readable_formats();
     if (preamble_.empty()) lines_.fail_at(1, "found an empty file" + expected);
-    lines_.fail_at(preamble_begin_, "found no header but " + shown(preamble_.front()) + expected);
+    lines_.fail_at(suspect_, "found no header but " + shown(suspect_text_) + expected);
 }
 
 }  // namespace

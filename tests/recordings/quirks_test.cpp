@@ -278,6 +278,7 @@ TEST(Quirks, RubbishIsRefusedByItsLine) {
         {"", "r.csv:1: found an empty file, expected one of our own traces, CapFrameX CSV, FrameView, OCAT"},
         {" \r\n\n", "r.csv:1: found an empty file"},
         {"\n\nhello\nworld\n", "r.csv:3: found no header but 'hello', expected one of our own traces"},
+        {"# law=paper\n//GPU=1\nhello\nworld\n", "r.csv:3: found no header but 'hello'"},
         {std::string("MZ\0\1", 4), "r.csv:1: found a binary file, expected one of our own"},
         {std::string("\xFF\xFE"
                      "A\0p\0",
