@@ -80,6 +80,15 @@ std::string json_string(std::string_view text) {
     return out += '"';
 }
 
+std::string shortened(std::string_view text, std::size_t most) {
+    std::string out;
+    std::size_t count = 0;
+    for_each_character(text, [&](std::string_view character) {
+        if (++count <= most) out += character;
+    });
+    return count <= most ? out : out + "\u2026";
+}
+
 std::string figure(double value, int digits) {
     if (std::isnan(value)) return "\u2013";
     if (std::isinf(value)) return value > 0 ? "\u221E" : "\u2212\u221E";
@@ -87,16 +96,18 @@ std::string figure(double value, int digits) {
     char text[64];
     const bool is_long = std::abs(value) >= longest;
     const auto end =
-        std::to_chars(text, text + sizeof text, value == 0 ? 0.0 : value,
+        std::to_chars(text, text + sizeof text, value,
                       is_long ? std::chars_format::scientific : std::chars_format::fixed, is_long ? 2 : digits);
-    return {text, end.ptr};
+    const std::string_view shown(text, end.ptr);
+    const bool is_zero = shown.find_first_of("123456789") == shown.npos;
+    return std::string(is_zero && shown[0] == '-' ? shown.substr(1) : shown);
 }
 
 std::string pixels(double value) {
     std::string text = figure(value, 2);
     while (text.back() == '0') text.pop_back();
     if (text.back() == '.') text.pop_back();
-    return text == "-0" ? "0" : text;
+    return text;
 }
 
 std::string base64(std::string_view bytes) {

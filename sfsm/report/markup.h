@@ -13,13 +13,16 @@ std::string escaped(std::string_view text);
 // A JSON string with its quotes, safe inside a <script> of HTML; cleaned as above.
 std::string json_string(std::string_view text);
 
+// The text's first `most` characters, an ellipsis for the rest.
+std::string shortened(std::string_view text, std::size_t most);
+
 // With `digits` after the point; rounded to three figures from 1e7 on; NaN: a dash.
 std::string figure(double value, int digits);
 
 // A length or place in a picture: two digits after the point at most, none that say nothing.
 std::string pixels(double value);
 
-// Little-endian bytes; the text of std::string-like bytes in base64, with padding.
+// With padding.
 std::string base64(std::string_view bytes);
 
 }  // namespace sfsm::report

@@ -198,26 +198,37 @@ std::string state_strip(const TimeAxis& time, const ReportRun& run, double top) 
     return out;
 }
 
-std::string legend(const Report& report, double y) {
+// Runs, in as many lines as they need, and states. Returns the last line's place.
+double draw_legend(std::string& out, const Report& report, double y) {
     constexpr double letter = 7.2, swatch = 26, apart = 22;  // as wide as most letters are
-    std::string out;
-    double x = left;
-    for (std::size_t i = 0; i < report.runs.size(); ++i) {
-        out += "<path d=\"M" + pixels(x) + " " + pixels(y - 4) + "h18\" stroke=\"" + colour_of(i) +
-               "\" stroke-width=\"3\"/>\n" + text(x + swatch, y, filled(ink), report.runs[i].name);
-        x += swatch + letter * static_cast<double>(report.runs[i].name.size()) + apart;
-    }
-    x = right - 3 * 100;
-    for (std::size_t state = 0; state < state_names.size(); ++state, x += 100) {
+    constexpr double states = 300;
+    constexpr std::size_t most = 40;
+    double x = right - states;
+    for (std::size_t state = 0; state < state_names.size(); ++state, x += states / 3) {
         out += rectangle(x, y - 10, 20, strip_height, fill_of(static_cast<State>(state))) +
                text(x + swatch, y, filled(faint_ink), state_names[state]);
     }
-    return out;
+    x = left;
+    for (std::size_t i = 0; i < report.runs.size(); ++i) {
+        const std::string name = shortened(report.runs[i].name, most);
+        const double needed = swatch + letter * static_cast<double>(name.size()) + apart;
+        if (x > left && x + needed > right - states) {
+            x = left;
+            y += 20;
+        }
+        out += "<path d=\"M" + pixels(x) + " " + pixels(y - 4) + "h18\" stroke=\"" + colour_of(i) +
+               "\" stroke-width=\"3\"/>\n" + text(x + swatch, y, filled(ink), name);
+        x += needed;
+    }
+    return y;
 }
 
 // Measured over predicted over target, and what state each run was in below. Returns where it ends.
 double draw_times(std::string& out, const Report& report, const TimeAxis& time, const Axis& y) {
-    out += chart_frame("Frame time [ms], target \u00B15 %; dashed: predicted", y, 6);
+    // Thinned, dashes only make what is measured hard to see.
+    const bool shows_predicted = time.frames <= columns;
+    out += chart_frame(
+        std::string("Frame time [ms], target \u00B15 %") + (shows_predicted ? "; dashed: predicted" : ""), y, 6);
     const std::vector<float> targets = series(report.runs[0], &ReportFrame::target_ms);
     out += target_band(time, y, targets);
     out += stroke(curve(time, y, targets, true), faint_ink);
@@ -225,8 +236,7 @@ double draw_times(std::string& out, const Report& report, const TimeAxis& time, 
         const std::vector<float> times = series(report.runs[i], &ReportFrame::frame_ms);
         out += stroke(curve(time, y, times, false), colour_of(i), "stroke-width=\"1.25\" stroke-opacity=\"0.9\"");
         out += carets(time, y, times, colour_of(i));
-        // Thinned, dashes only make what is measured hard to see.
-        if (time.frames > columns) continue;
+        if (!shows_predicted) continue;
         const std::vector<float> predicted = series(report.runs[i], &ReportFrame::predicted_ms);
         out +=
             stroke(curve(time, y, predicted, false), colour_of(i), "stroke-dasharray=\"3 3\" stroke-opacity=\"0.7\"");
@@ -289,7 +299,7 @@ double draw_percentiles(std::string& out, const Report& report, double top) {
         out += line(left, y + 7, right, y + 7, grid);
         y += row + 4;
         out += rectangle(left, y - 10, 6, strip_height, colour_of(i));
-        out += text(left + 14, y, filled(ink), report.runs[i].name);
+        out += text(left + 14, y, filled(ink), shortened(report.runs[i].name, 30));
         const std::vector<double> values = percentiles(report.runs[i], shares);
         for (std::size_t k = 0; k < values.size(); ++k) {
             out += text(right - column * static_cast<double>(names.size() - 1 - k), y,
@@ -319,9 +329,10 @@ std::vector<float> all_of(const Report& report, float ReportFrame::*field) {
 void write_report_svg(std::ostream& out, const Report& report) {
     const TimeAxis time = time_axis(report);
     const double top = fitted_top(all_of(report, &ReportFrame::frame_ms), all_of(report, &ReportFrame::target_ms));
-    std::string body = text(left, 38, filled(ink) + " font-size=\"19\" font-weight=\"600\"", report.title);
-    body += legend(report, 68);
-    double y = draw_times(body, report, time, {0, top, 356, 116});
+    std::string body =
+        text(left, 38, filled(ink) + " font-size=\"19\" font-weight=\"600\"", shortened(report.title, 80));
+    double y = draw_legend(body, report, 68) + 48;
+    y = draw_times(body, report, time, {0, top, y + 240, y});
     y = draw_detail(body, report, time, "D [m]: beyond it people move at a lower rate", &ReportFrame::motion_distance,
                     y + 44);
     y = draw_detail(body, report, time, "S [px]: size of the points that people are drawn as", &ReportFrame::splat_size,

@@ -16,7 +16,7 @@ function drawDue() {
   drawingIsDue = false;
   drawTimeCharts();
   const first = Math.max(0, Math.ceil(view.from)), last = Math.min(frameCount - 1, Math.floor(view.to));
-  byId("range").textContent = `frames ${first} to ${last} of ${frameCount}`;
+  byId("range").textContent = `frames ${grouped(first)} to ${grouped(last)} of ${grouped(frameCount)}`;
 }
 
 // Keeps the view inside the run.
@@ -73,7 +73,7 @@ function addChip(parent, run) {
 
 function fillReadout() {
   const table = document.createElement("table");
-  addHtml(table, "caption", `Frame ${view.frame}`);
+  addHtml(table, "caption", `Frame ${grouped(view.frame)}`);
   const head = addHtml(addHtml(table, "thead"), "tr");
   addHtml(head, "th");
   for (const [, title] of columns) addHtml(head, "th", title);
@@ -222,7 +222,7 @@ function makeDrag(chart) {
 }
 
 function listenToChart(id) {
-  const svg = byId(id).querySelector("svg");
+  const svg = byId(id).querySelector(":scope > svg");
   const chart = () => charts[id];
   const drag = makeDrag(chart);
   svg.addEventListener("wheel", (event) => onWheel(event, chart()), { passive: false });
@@ -280,14 +280,14 @@ function nextTheme() {
 
 // Pictures are drawn as wide as they are seen; on paper all have the width of a page.
 function setPrinting(isPrinting) {
-  view.printWidth = isPrinting ? 760 : null;
+  view.printWidth = isPrinting ? 820 : null;
   drawTimeCharts();
   drawSpread();
 }
 
 function begin() {
   byId("times").hidden = byId("spread").hidden = false;
-  for (const part of [byId("scatter"), document.querySelector(".key-predicted")]) part.hidden = !predictsAny;
+  for (const part of [byId("scatter"), document.querySelector(".key-predicted")]) part.hidden = !predicts.includes(true);
   makeLegend();
   for (const id of ["frame-chart", "distance-chart", "splat-chart"]) listenToChart(id);
   for (const button of byId("scale").children) button.addEventListener("click", () => chooseScale(button.dataset.scale));

@@ -1,7 +1,7 @@
 // Where numbers lie in a picture: axes, curves thinned to what can be seen, and the SVG they are drawn into. The static
 // picture's twin of this is plot.cpp.
 
-const svgNamespace = document.querySelector("#frame-chart svg").namespaceURI;
+const svgNamespace = document.querySelector("svg").namespaceURI;
 
 function add(parent, name, attributes = {}, text = "") {
   const element = document.createElementNS(svgNamespace, name);
@@ -31,6 +31,8 @@ function brief(value) {
   return String(Number(value.toPrecision(6)));
 }
 
+const grouped = (count) => count.toLocaleString("en");
+
 // Numbers low..high along begin..end [px]. What lies beyond is put at the nearer end.
 function makeAxis(low, high, begin, end, isLog = false) {
   const scale = isLog ? Math.log10 : (value) => value;
@@ -48,7 +50,7 @@ function linearTicks(axis, most) {
   const power = 10 ** Math.floor(Math.log10(rough));
   const step = [1, 2, 5, 10].map((factor) => factor * power).find((value) => value >= rough) ?? 10 * power;
   const values = [];
-  for (let i = Math.ceil(axis.low / step); i * step <= axis.high && values.length <= most; ++i) values.push(i * step);
+  for (let i = Math.ceil(axis.low / step); i * step <= axis.high && values.length <= most; ++i) values.push(i * step + 0);  // no -0
   return values;
 }
 
@@ -145,7 +147,7 @@ function sampleInView(values, view) {
 // Empties the figure's svg for a picture as wide as its place.
 function openPicture(id, height, printWidth) {
   const figure = document.getElementById(id);
-  const svg = figure.querySelector("svg");
+  const svg = figure.querySelector(":scope > svg");
   const width = printWidth ?? Math.max(figure.clientWidth, 200);
   svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
   svg.replaceChildren();

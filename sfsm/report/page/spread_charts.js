@@ -115,28 +115,27 @@ function drawCells(group, { across, counts }, x, y, cell) {
   paths.forEach((path, depth) => path && add(group, "path", { class: "cells", d: path, "fill-opacity": 0.35 + 0.2 * depth }));
 }
 
-const predictsAny = runs.some((run) => run.predicted.some(Number.isFinite));
+const predicts = runs.map((run) => run.predicted.some(Number.isFinite));
 
-function drawScatter(spreads, range, begin, end) {
+function drawScatter(spreads, begin, end) {
   const { svg, width } = openPicture("scatter", spreadHeight, spreadWidth());
-  const cell = 3, bottom = spreadHeight - 24, side = bottom - 10;
+  const cell = 3, bottom = spreadHeight - 24, side = Math.min(bottom - 10, width - 56);
+  const told = spreads.filter(({ run }) => predicts[run.index]);
+  const range = spreadRange(told);
   const x = makeAxis(range.low, range.high, 46, 46 + side, range.isLog);
-  const y = makeAxis(range.low, range.high, bottom, 10, range.isLog);
+  const y = makeAxis(range.low, range.high, bottom, bottom - side, range.isLog);
   drawYAxis(svg, x, y, 6);
   drawXTicks(svg, x, bottom, ticksOf(x, 5));
   add(svg, "path", { class: "diagonal", d: `M${x.begin} ${y.begin}L${x.end} ${y.end}` });
-  let line = 24;
-  for (const { run } of spreads) {
+  told.forEach(({ run }, i) => {
     const pairs = pairUp(run, begin, end, x, cell);
     const group = addRun(svg, run);
     drawCells(group, pairs, x, y, cell);
-    const near = pairs.errors.length > 0 ? brief(Number((100 * ranked(pairs.errors, 0.5)).toPrecision(2))) : null;
-    const told = near === null ? "predicts nothing" : `half within \u00b1${near} %`;
-    if (width < 46 + side + 110) continue;
-    add(group, "rect", { class: "chip-bar", x: 62 + side, y: line - 9, width: 5, height: 10 });
-    add(group, "text", { x: 73 + side, y: line }, told);
-    line += 18;
-  }
+    if (pairs.errors.length === 0) return;
+    const near = brief(Number((100 * ranked(pairs.errors, 0.5)).toPrecision(2)));
+    add(group, "rect", { class: "chip-bar", x: x.begin + 8, y: y.end + 6 + 18 * i, width: 5, height: 10 });
+    add(group, "text", { class: "told", x: x.begin + 19, y: y.end + 15 + 18 * i }, `half within \u00b1${near} %`);
+  });
 }
 
 function drawSpread() {
@@ -145,7 +144,7 @@ function drawSpread() {
   const range = spreadRange(spreads);
   drawHistogram(spreads, range);
   drawPercentiles(spreads);
-  if (predictsAny) drawScatter(spreads, range, begin, end);
+  if (predicts.includes(true)) drawScatter(spreads, begin, end);
   const isAll = begin === 0 && end === frameCount;
-  document.getElementById("spread-range").textContent = isAll ? "of all frames" : `of frames ${begin} to ${end - 1}`;
+  document.getElementById("spread-range").textContent = isAll ? "of all frames" : `of frames ${grouped(begin)} to ${grouped(end - 1)}`;
 }

@@ -28,11 +28,24 @@ function highestOf(buckets) {
   return buckets.reduce((most, { high }) => (Number.isFinite(high) ? Math.max(most, high) : most), 0);
 }
 
+function lowestOf(buckets) {
+  return buckets.reduce((least, { low }) => Math.min(least, low), Infinity);
+}
+
+// From 0, unless that would leave much of the picture empty.
+function fittedAxis(top, lowest, begin, end) {
+  const low = lowest - 0.08 * (top - lowest);
+  return makeAxis(low > 0.35 * top ? low : 0, top, begin, end);
+}
+
 function timeAxis(curves, targets, begin, end) {
   const highest = Math.max(0, ...curves.map(({ times }) => highestOf(times)));
   const highestTarget = Math.max(0, ...targets.map(highestOf));
   const full = Math.max(1.05 * highest, 1.1 * highestTarget) || 1;
-  if (view.scale === "fitted") return makeAxis(0, fittedTop(highest, highestTarget), begin, end);
+  if (view.scale === "fitted") {
+    const lowest = Math.min(...curves.map(({ times }) => lowestOf(times)), ...targets.map((target) => 0.95 * lowestOf(target)));
+    return fittedAxis(fittedTop(highest, highestTarget), lowest, begin, end);
+  }
   if (view.scale === "full") return makeAxis(0, full, begin, end);
   const lows = curves.flatMap(({ times }) => times).filter(({ low, high }) => low > 0 && low <= high);
   const low = lows.reduce((least, bucket) => Math.min(least, bucket.low), full / 10);
@@ -47,7 +60,7 @@ function openChart(id, height, bottom) {
   add(clip, "rect", { x: x.begin, y: -8, width: x.end - x.begin, height: height + 8 });
   const ground = add(svg, "g");
   const layer = add(svg, "g", { "clip-path": `url(#${id}-clip)` });
-  drawXTicks(svg, x, bottom, linearTicks(x, Math.max(3, Math.round(width / 110))).filter(Number.isInteger));
+  drawXTicks(svg, x, bottom, linearTicks(x, Math.max(3, Math.round(width / 110))).filter(Number.isInteger), grouped);
   svg.dataset.from = view.from;
   svg.dataset.to = view.to;
   const chart = { svg, ground, layer, x, bottom, cross: add(svg, "g", { class: "cross-layer" }) };
@@ -113,7 +126,7 @@ function drawStates(chart, run, top) {
 
 function drawFrameChart() {
   const shown = shownRuns();
-  const plot = window.innerWidth < 700 && !view.printWidth ? 230 : 360;
+  const plot = view.printWidth ? 250 : window.innerWidth < 700 ? 230 : 360;
   const strips = Math.max(1, shown.length) * (stripHeight + stripGap);
   const chart = openChart("frame-chart", plot + 8 + strips + 22, plot + 8 + strips);
   const { x } = chart;

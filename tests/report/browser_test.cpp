@@ -1,0 +1,325 @@
+// The report as a reader has it: in a headless browser, opened as a file, with a mouse, fingers and keys.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <fstream>
+
+#include "tests/report/sample.h"
+#include "tests/report/webdriver.h"
+
+namespace {
+
+using nlohmann::json;
+
+constexpr auto patience = std::chrono::seconds(30);
+
+class ReportInBrowser : public testing::Test {
+protected:
+    void SetUp() override {
+        const std::string driver = tests::find_program({"chromedriver"});
+        const std::string program = tests::find_program({"chromium", "chromium-browser", "google-chrome"});
+        if (driver.empty() || program.empty()) {
+            GTEST_SKIP() << "found no " << (driver.empty() ? "chromedriver" : "chromium")
+                         << " in PATH: the report is NOT tested in a browser";
+        }
+        browser_ = std::make_unique<tests::Browser>(driver, program);
+        open(report_);
+    }
+
+    void open(const sfsm::Report& report) {
+        std::ofstream file(folder_ / "a report.html", std::ios::binary);
+        sfsm::write_report_html(file, report);
+        file.close();
+        browser_->open("file://" + (folder_ / "a%20report.html"));
+        wait_for("return document.querySelectorAll('#percentiles path.curve').length > 0");
+    }
+
+    json value(const std::string& script) const { return browser_->value(script); }
+
+    // Until the page says so: drawing waits for the browser.
+    void wait_for(const std::string& script) const {
+        const auto deadline = std::chrono::steady_clock::now() + patience;
+        while (value(script) != true) {
+            ASSERT_LT(std::chrono::steady_clock::now(), deadline) << "in vain: " << script;
+        }
+    }
+
+    // Where a frame is in a chart, in the middle of its height [px of the window].
+    json place(const std::string& chart, double frame) const {
+        const std::string found =
+            value("const svg = document.querySelector('#" + chart +
+                  " > svg'); svg.scrollIntoView({ block: 'center' });"
+                  "const clip = svg.querySelector('clipPath rect').getBBox();"
+                  "const box = svg.getBoundingClientRect(), scale = box.width / svg.viewBox.baseVal.width;"
+                  "const from = Number(svg.dataset.from), to = Number(svg.dataset.to);"
+                  "const x = clip.x + (" +
+                  std::to_string(frame) +
+                  " - from) / (to - from) * clip.width;"
+                  "return JSON.stringify({ x: Math.round(box.left + x * scale), y: Math.round(box.top + "
+                  "box.height / 2) })")
+                .get<std::string>();
+        return json::parse(found);
+    }
+
+    static json move(const json& place, int ms = 0) {
+        return {
+            {"type", "pointerMove"}, {"duration", ms}, {"origin", "viewport"}, {"x", place["x"]}, {"y", place["y"]}};
+    }
+    static json down() { return {{"type", "pointerDown"}, {"button", 0}}; }
+    static json up() { return {{"type", "pointerUp"}, {"button", 0}}; }
+
+    void wheel(const json& place, int delta) const {
+        browser_->act("wheel", json::array({{{"type", "scroll"},
+                                             {"origin", "viewport"},
+                                             {"x", place["x"]},
+                                             {"y", place["y"]},
+                                             {"deltaX", 0},
+                                             {"deltaY", delta}}}));
+    }
+
+    void press(const std::string& chart, const std::string& key) const {
+        value("document.querySelector('#" + chart + " > svg').focus({ preventScroll: true })");
+        browser_->act("key", json::array({{{"type", "keyDown"}, {"value", key}}, {{"type", "keyUp"}, {"value", key}}}));
+    }
+
+    // Frames in view.
+    double span() const {
+        return value("const { from, to } = document.querySelector('#frame-chart > svg').dataset; return to - from");
+    }
+
+    // Of the read-out; empty where there is none.
+    std::string told(std::size_t run, const std::string& key) const {
+        return value("return document.querySelector('#readout tr[data-run=\"" + std::to_string(run) +
+                     "\"] [data-key=" + key + "]')?.textContent ?? ''");
+    }
+
+    // As near as it is written.
+    void expect_told(std::size_t run, const std::string& key, float expected) const {
+        SCOPED_TRACE(key + " of run " + std::to_string(run));
+        const std::string text = told(run, key);
+        if (std::isnan(expected)) {
+            EXPECT_EQ(text, "\u2013");
+        } else if (std::isinf(expected)) {
+            EXPECT_EQ(text, "\u221E");
+        } else {
+            ASSERT_FALSE(text.empty());
+            constexpr double written = 0.051;
+            EXPECT_NEAR(std::stod(text), expected, written);
+        }
+    }
+
+    void expect_read_out(std::size_t frame) const {
+        constexpr const char* states[] = {"original", "slowed", "points"};
+        for (std::size_t run = 0; run < report_.runs.size(); ++run) {
+            const sfsm::ReportFrame& shown = report_.runs[run].frames[frame];
+            expect_told(run, "time", shown.frame_ms);
+            expect_told(run, "target", shown.target_ms);
+            expect_told(run, "predicted", shown.predicted_ms);
+            expect_told(run, "splat", shown.splat_size);
+            const bool has_distance = shown.state != sfsm::State::original;
+            expect_told(run, "distance", has_distance ? shown.motion_distance : std::nanf(""));
+            EXPECT_EQ(told(run, "state"), states[static_cast<std::size_t>(shown.state)]);
+        }
+    }
+
+    sfsm::Report report_ = tests::sample_report();
+    tests::Directory folder_;
+    std::unique_ptr<tests::Browser> browser_;
+};
+
+TEST_F(ReportInBrowser, ConsoleStaysSilent) {
+    EXPECT_EQ(browser_->console(), json::array());
+    EXPECT_EQ(value("return document.images.length"), 0) << "text became an element";
+    sfsm::ReportFrame unknown, huge;
+    huge.frame_ms = 1e30F;
+    huge.target_ms = -1;
+    huge.motion_distance = std::numeric_limits<float>::infinity();
+    huge.state = sfsm::State::points;
+    for (const auto& frames : {std::vector{huge}, std::vector{unknown, huge, unknown}}) {
+        open({"odd", {}, {{"law", frames, sfsm::time_scores(frames)}}});
+        for (const char* scale : {"full", "log", "fitted"}) {
+            value("document.querySelector('[data-scale=" + std::string(scale) + "]').click()");
+            wait_for("return document.querySelector('[data-scale=" + std::string(scale) + "]').ariaPressed == 'true'");
+        }
+        EXPECT_EQ(browser_->console(), json::array());
+        EXPECT_EQ(value("return [...document.querySelectorAll('path')].some("
+                        "(path) => /NaN|Infinity/.test(path.getAttribute('d')))"),
+                  false);
+    }
+}
+
+TEST_F(ReportInBrowser, EachChartHasACurveOfEachRun) {
+    const std::pair<const char*, const char*> charts[] = {{"frame-chart", "measured"},
+                                                          {"distance-chart", "detail"},
+                                                          {"splat-chart", "detail"},
+                                                          {"percentiles", "percentile"},
+                                                          {"histogram", "bars"}};
+    for (const auto& [chart, curve] : charts) {
+        const json points = value("return [...document.querySelectorAll('#" + std::string(chart) + " path." + curve +
+                                  "')].map((path) => path.getAttribute('d').split(/[LHV]/).length)");
+        ASSERT_EQ(points.size(), 2) << chart;
+        constexpr int many = 50;
+        for (const json& count : points) EXPECT_GT(count, many) << chart;
+    }
+    EXPECT_EQ(value("return document.querySelectorAll('#frame-chart path.predicted[d^=M]').length"), 1);
+    EXPECT_EQ(value("return document.querySelectorAll('#frame-chart .caret').length"), 2) << "the spikes are clipped";
+    EXPECT_EQ(value("return document.querySelectorAll('#frame-chart .strip').length"), 2);
+    for (const char* state : {"state-0", "state-1", "state-2"}) {
+        EXPECT_EQ(value("return document.querySelectorAll('#frame-chart .strip ." + std::string(state) + "').length"),
+                  2);
+    }
+}
+
+TEST_F(ReportInBrowser, HoveringReadsOutTheFrame) {
+    for (const char* chart : {"frame-chart", "distance-chart", "splat-chart"}) {
+        for (const int frame : {3, 30, 150, 170, 333}) {
+            SCOPED_TRACE(std::string(chart) + ", frame " + std::to_string(frame));
+            browser_->act("pointer", json::array({move(place(chart, frame))}));
+            wait_for("return document.querySelector('#readout').dataset.frame == " + std::to_string(frame));
+            expect_read_out(static_cast<std::size_t>(frame));
+            EXPECT_EQ(value("return document.querySelectorAll('path.cross').length"), 3) << "through all charts";
+        }
+    }
+    browser_->act("pointer", json::array({move({{"x", 3}, {"y", 3}})}));
+    wait_for("return document.querySelector('#readout').hidden");
+}
+
+TEST_F(ReportInBrowser, WheelZoomsAllChartsAroundThePointer) {
+    EXPECT_EQ(span(), 400);
+    wheel(place("splat-chart", 100), -600);
+    wait_for("const { from, to } = document.querySelector('#frame-chart > svg').dataset; return to - from < 300");
+    EXPECT_EQ(
+        value("return new Set([...document.querySelectorAll('svg.over-time')].map((svg) => svg.dataset.from)).size"),
+        1);
+    const double from =
+        std::stod(value("return document.querySelector('#frame-chart > svg').dataset.from").get<std::string>());
+    constexpr double nearly = 1.5;  // a pixel is half a frame
+    EXPECT_NEAR((100 - from) / span(), 100.5 / 400, nearly / 100);
+    EXPECT_NE(value("return document.querySelector('#range').textContent"), "frames 0 to 399 of 400");
+    wait_for("return document.querySelector('#spread-range').textContent != 'of all frames'");
+    value("document.querySelector('#zoom-reset').click()");
+    wait_for("return document.querySelector('#range').textContent == 'frames 0 to 399 of 400'");
+}
+
+TEST_F(ReportInBrowser, DraggingPicksARange) {
+    const json from = place("frame-chart", 100), to = place("frame-chart", 200);
+    browser_->act("pointer", json::array({move(from), down(), move(to, 50), up()}));
+    wait_for("const { from, to } = document.querySelector('#frame-chart > svg').dataset; return to - from < 110");
+    constexpr double nearly = 2;
+    EXPECT_NEAR(span(), 100, nearly);
+    const json middle = place("frame-chart", 150);
+    browser_->act("pointer", json::array({move(middle), down(), up(), down(), up()}));
+    wait_for("const { from, to } = document.querySelector('#frame-chart > svg').dataset; return to - from == 400");
+}
+
+TEST_F(ReportInBrowser, FingersZoomAndMove) {
+    const auto finger = [&](const char* name, double begin, double end) {
+        return json{{"type", "pointer"},
+                    {"id", name},
+                    {"parameters", {{"pointerType", "touch"}}},
+                    {"actions", json::array({move(place("frame-chart", begin)), down(),
+                                             move(place("frame-chart", end), 100), up()})}};
+    };
+    browser_->act(json::array({finger("one", 180, 100), finger("two", 220, 300)}));
+    wait_for("const { from, to } = document.querySelector('#frame-chart > svg').dataset; return to - from < 200");
+    const double from = value("return Number(document.querySelector('#frame-chart > svg').dataset.from)");
+    const double middle = from + span() / 2;
+    browser_->act(json::array({finger("one", middle, middle - span() / 4)}));
+    wait_for("return Number(document.querySelector('#frame-chart > svg').dataset.from) > " + std::to_string(from + 5));
+    wait_for("return !document.querySelector('#readout').hidden");
+}
+
+TEST_F(ReportInBrowser, KeysZoomMoveAndStep) {
+    press("frame-chart", "+");
+    wait_for("const { from, to } = document.querySelector('#frame-chart > svg').dataset; return to - from < 300");
+    const std::string right = "\uE014", shift = "\uE008";
+    const double from = value("return Number(document.querySelector('#frame-chart > svg').dataset.from)");
+    press("frame-chart", right);
+    wait_for("return Number(document.querySelector('#frame-chart > svg').dataset.from) > " + std::to_string(from));
+    press("splat-chart", "0");
+    wait_for("const { from, to } = document.querySelector('#frame-chart > svg').dataset; return to - from == 400");
+    const json key = {{"type", "keyDown"}, {"value", right}}, release = {{"type", "keyUp"}, {"value", right}};
+    browser_->act("key", json::array({{{"type", "keyDown"}, {"value", shift}},
+                                      key,
+                                      release,
+                                      key,
+                                      release,
+                                      {{"type", "keyUp"}, {"value", shift}}}));
+    wait_for("return !document.querySelector('#readout').hidden");
+    const std::string frame = value("return document.querySelector('#readout').dataset.frame");
+    EXPECT_EQ(frame, "201") << "one on from the middle, which the first step shows";
+    expect_read_out(201);
+    EXPECT_EQ(value("return document.querySelector('#spoken').textContent.startsWith('Frame 201.')"), true);
+}
+
+TEST_F(ReportInBrowser, LegendHidesARun) {
+    value("document.querySelector('#legend [data-run=\"0\"]').click()");
+    wait_for("return document.querySelectorAll('#frame-chart path.measured').length == 1");
+    EXPECT_EQ(value("return document.querySelectorAll('#splat-chart path.detail').length"), 1);
+    EXPECT_EQ(value("return document.querySelector('#legend [data-run=\"0\"]').ariaPressed"), "false");
+    browser_->act("pointer", json::array({move(place("frame-chart", 50))}));
+    wait_for("return document.querySelector('#readout').dataset.frame == 50");
+    EXPECT_EQ(told(0, "time"), "");
+    EXPECT_NE(told(1, "time"), "");
+    value("document.querySelector('#legend [data-run=\"1\"]').click()");
+    wait_for("return document.querySelectorAll('#frame-chart path.measured').length == 0");
+    value("document.querySelector('#legend [data-run=\"0\"]').click()");
+    wait_for("return document.querySelectorAll('#frame-chart path.measured').length == 1");
+    EXPECT_EQ(browser_->console(), json::array());
+}
+
+TEST_F(ReportInBrowser, ScaleShowsTheSpike) {
+    const std::string highest =
+        "return Math.max(...[...document.querySelectorAll('#frame-chart > svg > g:first-of-type text')]"
+        ".map((text) => Number(text.textContent)))";
+    EXPECT_LT(value(highest), 200);
+    for (const char* scale : {"full", "log"}) {
+        value("document.querySelector('[data-scale=" + std::string(scale) + "]').click()");
+        wait_for(highest + " >= 1000");
+        EXPECT_EQ(value("return document.querySelectorAll('#frame-chart .caret').length"), 0);
+    }
+}
+
+TEST_F(ReportInBrowser, DarkSchemeAndPaperDiffer) {
+    const std::string ground = "return getComputedStyle(document.body).backgroundColor";
+    const auto emulate = [&](const std::string& media, const std::string& scheme) {
+        const json features = json::array({{{"name", "prefers-color-scheme"}, {"value", scheme}}});
+        browser_->command("Emulation.setEmulatedMedia", {{"media", media}, {"features", features}});
+    };
+    emulate("", "light");
+    const json light = value(ground);
+    emulate("", "dark");
+    const json dark = value(ground);
+    EXPECT_NE(light, dark);
+    value("document.querySelector('#theme').click()");
+    EXPECT_EQ(value(ground), light) << "the button wins";
+    value("document.querySelector('#theme').click()");
+
+    emulate("print", "dark");
+    EXPECT_EQ(value(ground), "rgb(255, 255, 255)");
+    EXPECT_EQ(value("return [...document.querySelectorAll('.control')].every((part) => part.offsetParent === null)"),
+              true);
+    EXPECT_EQ(value("return document.querySelector('#legend').offsetParent !== null"), true);
+    emulate("", "light");
+}
+
+TEST_F(ReportInBrowser, FitsAPhone) {
+    browser_->command("Emulation.setDeviceMetricsOverride",
+                      {{"width", 360}, {"height", 740}, {"deviceScaleFactor", 2}, {"mobile", true}});
+    wait_for("return document.querySelector('#frame-chart > svg').viewBox.baseVal.width < 360");
+    EXPECT_LE(value("return document.documentElement.scrollWidth"), 360) << value(
+        "return [...document.querySelectorAll('body *')].filter((part) => part.getBoundingClientRect().right > 360)"
+        ".map((part) => part.outerHTML.slice(0, 80))");
+}
+
+TEST_F(ReportInBrowser, WithoutScriptsThereIsThePicture) {
+    browser_->command("Emulation.setScriptExecutionDisabled", {{"value", true}});
+    browser_->open("file://" + (folder_ / "a%20report.html"));
+    const json found = browser_->command("DOM.getDocument", {{"depth", 1}});
+    const json picture = browser_->command(
+        "DOM.querySelector", {{"nodeId", found["root"]["nodeId"]}, {"selector", "noscript svg[role=img] path"}});
+    EXPECT_NE(picture["nodeId"], 0);
+    browser_->command("Emulation.setScriptExecutionDisabled", {{"value", false}});
+}
+
+}  // namespace
