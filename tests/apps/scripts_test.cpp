@@ -15,7 +15,7 @@ protected:
     void SetUp() override {
         for (const char* folder : {"tools", "tmp", "root/scripts", "root/build/release/bin", "elsewhere"})
             fs::create_directories(directory_ / folder);
-        for (const char* script : {"scripts/setup", "demo"})
+        for (const char* script : {"scripts/setup", "demo", "test"})
             fs::copy_file(fs::path(GRANDSTAND_SOURCE) / script, directory_ / ("root/" + std::string(script)));
         // All that the scripts may find, besides what a test adds.
         for (const std::string tool : {"cat", "dirname", "env", "grep", "id", "mkdir", "mktemp", "rm", "tail", "tr"})
@@ -67,6 +67,56 @@ TEST_F(Scripts, SetupInstallsWhatIsMissingAndSaysWhenThatFails) {
     EXPECT_NE(outcome.out.find("Installing: libglm-dev\n"), std::string::npos) << outcome.out;
     EXPECT_NE(outcome.out.find("apt-get install -y --no-install-recommends libglm-dev\n"), std::string::npos);
     EXPECT_NE(outcome.out.find("apt-get failed"), std::string::npos) << outcome.out;
+}
+
+// Everything is there but chromium-driver.
+class ScriptsWithoutADriver : public Scripts {
+protected:
+    void SetUp() override {
+        Scripts::SetUp();
+        stand_in("tools/sudo", "exec \"$@\"");
+        stand_in("tools/dpkg-query", "case \"$*\" in *chromium-driver*) ;; *) echo install ok installed;; esac");
+        stand_in("tools/apt-cache", "exit 0");
+        stand_in("tools/apt-get", "echo \"apt-get $*\" >&2; [ \"$1\" = update ]");
+        stand_in("tools/cmake", "echo built");
+    }
+};
+
+TEST_F(ScriptsWithoutADriver, SetupInstallsNoneUnasked) {
+    stand_in("tools/apt-cache", "echo looked for $*");
+    const tests::Outcome outcome = call("scripts/setup");
+    EXPECT_EQ(outcome.code, 0) << outcome.out;
+    EXPECT_EQ(outcome.out.find("chromium"), std::string::npos) << outcome.out;
+}
+
+TEST_F(ScriptsWithoutADriver, SetupBuildsAlsoWhereItCannotBeInstalled) {
+    const tests::Outcome outcome = call("scripts/setup", "browser");
+    EXPECT_EQ(outcome.code, 0) << outcome.out;
+    EXPECT_NE(outcome.out.find("apt-get install -y --no-install-recommends chromium-driver\n"), std::string::npos);
+    EXPECT_NE(outcome.out.find("could not install chromium-driver: reports are not tested in a browser\n"),
+              std::string::npos)
+        << outcome.out;
+    EXPECT_NE(outcome.out.find("Building"), std::string::npos) << outcome.out;
+}
+
+TEST_F(ScriptsWithoutADriver, SetupBuildsAlsoWhereThereIsNoSuchPackage) {
+    stand_in("tools/apt-cache", "exit 100");
+    const tests::Outcome outcome = call("scripts/setup", "browser");
+    EXPECT_EQ(outcome.code, 0) << outcome.out;
+    EXPECT_EQ(outcome.out.find("apt-get"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("found no package chromium-driver: reports are not tested in a browser\n"),
+              std::string::npos)
+        << outcome.out;
+}
+
+TEST_F(Scripts, TestAsksForABrowserAndHandsArgumentsOn) {
+    stand_in("root/scripts/setup", "echo \"setup $*\"");
+    stand_in("tools/ctest", "echo \"ctest $*\"");
+    stand_in("tools/nproc", "echo 3");
+    const tests::Outcome outcome = call("test", "-R Selection");
+    EXPECT_EQ(outcome.code, 0) << outcome.out;
+    EXPECT_NE(outcome.out.find("setup browser\n"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("--parallel 3 -R Selection\n"), std::string::npos) << outcome.out;
 }
 
 TEST_F(Scripts, DemoLeavesTheCallerInItsDirectory) {

@@ -17,7 +17,7 @@ class ReportInBrowser : public testing::Test {
 protected:
     void SetUp() override {
         const std::string driver = tests::find_program({"chromedriver"});
-        const std::string program = tests::find_program({"chromium", "chromium-browser", "google-chrome"});
+        const std::string program = tests::find_program({"chromium", "google-chrome"});
         if (driver.empty() || program.empty()) {
             GTEST_SKIP() << "found no " << (driver.empty() ? "chromedriver" : "chromium")
                          << " in PATH: the report is NOT tested in a browser";

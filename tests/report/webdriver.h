@@ -24,13 +24,13 @@ namespace tests {
 
 using nlohmann::json;
 
-// The first of the programs that PATH has; empty: none.
+// The first of the programs that PATH has; empty: none. Snaps don't count: they see no files in temporary folders.
 inline std::string find_program(const std::vector<std::string>& names) {
     for (const std::string& name : names) {
         std::istringstream folders(std::getenv("PATH"));
         for (std::string folder; std::getline(folders, folder, ':');) {
             const std::string path = folder + "/" + name;
-            if (access(path.c_str(), X_OK) == 0) return path;
+            if (folder != "/snap/bin" && access(path.c_str(), X_OK) == 0) return path;
         }
     }
     return "";
