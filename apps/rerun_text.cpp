@@ -56,6 +56,14 @@ void add_metrics(Json& json, const sim::Metrics& metrics) {
     json["overshoot_pct"] = number(metrics.overshoot_pct);
 }
 
+Json prices_json(const sim::Prices& prices) {
+    return {{"frame", number(prices.frame)},
+            {"person", number(prices.person)},
+            {"triangle", number(prices.triangle)},
+            {"point", number(prices.point)},
+            {"motion_update", number(prices.update)}};
+}
+
 std::string percent(double share) {
     std::ostringstream text;
     text << std::showpos << std::fixed << std::setprecision(1) << 100 * share << " %";
@@ -112,15 +120,20 @@ Json rerun_json(const Rerun& rerun) {
 }
 
 void write_fit(std::ostream& out, const sim::CostFit& fit) {
-    const std::pair<const char*, double> prices[] = {{"frame", fit.prices.frame},
-                                                     {"person", fit.prices.person},
-                                                     {"triangle", fit.prices.triangle},
-                                                     {"point", fit.prices.point},
-                                                     {"motion update", fit.prices.update}};
+    struct Line {
+        const char* name;
+        double ms, sigma;
+    };
+    const Line prices[] = {{"frame", fit.prices.frame, fit.sigma.frame},
+                           {"person", fit.prices.person, fit.sigma.person},
+                           {"triangle", fit.prices.triangle, fit.sigma.triangle},
+                           {"point", fit.prices.point, fit.sigma.point},
+                           {"motion update", fit.prices.update, fit.sigma.update}};
     constexpr double us_per_ms = 1000;
     out << "cost model of " << fit.frames << " frames, median " << std::setprecision(4) << fit.median_ms << " ms\n";
-    for (const auto& [name, ms] : prices)
-        out << "  " << std::left << std::setw(14) << name << std::right << std::setw(12) << us_per_ms * ms << " us\n";
+    for (const auto& [name, ms, sigma] : prices)
+        out << "  " << std::left << std::setw(14) << name << std::right << std::setw(10) << us_per_ms * ms << " us +- "
+            << us_per_ms * sigma << '\n';
     out << "R2 " << fit.r2 << "; time over model";
     for (std::size_t i = 0; i < fit.percents.size(); ++i)
         out << (i == 0 ? ": " : ", ") << fit.percents[i] << "th percentile " << percent(fit.residual[i]);
@@ -132,11 +145,8 @@ Json fit_json(const sim::CostFit& fit) {
     json["frames"] = fit.frames;
     json["median_ms"] = number(fit.median_ms);
     json["r2"] = number(fit.r2);
-    json["prices_ms"] = {{"frame", number(fit.prices.frame)},
-                         {"person", number(fit.prices.person)},
-                         {"triangle", number(fit.prices.triangle)},
-                         {"point", number(fit.prices.point)},
-                         {"motion_update", number(fit.prices.update)}};
+    json["prices_ms"] = prices_json(fit.prices);
+    json["sigma_ms"] = prices_json(fit.sigma);
     Json& residual = json["residual"] = Json::object();
     for (std::size_t i = 0; i < fit.percents.size(); ++i)
         residual["p" + std::to_string(static_cast<int>(fit.percents[i]))] = number(fit.residual[i]);

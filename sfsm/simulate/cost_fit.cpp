@@ -18,8 +18,9 @@ constexpr double most_count = 1e15;  // of any work
 
 // The belief: pieces of a person, a triangle, a point, an update, and what every frame has in shares of a mean frame.
 enum Kind : std::size_t { frame, person, triangle, point, update };
-constexpr Unknowns pieces_each{1, 50, 1, 2, 300};
+constexpr Unknowns pieces_each{1, 50, 1, 2, 4};
 constexpr double frame_share = 0.05;
+constexpr double update_spread = 75;  // sigmas of the believed price: renderers that skin pay 300 pieces, ours none
 // 1 sigma of the believed price is the price. Where times have no noise at all, the belief decides only what is left
 // open: this small, it moves no digit of what they tell.
 constexpr double least_belief = 1e-10;
@@ -54,6 +55,10 @@ double dot(const Unknowns& a, const Unknowns& b) {
     double sum = 0;
     for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
     return sum;
+}
+
+double pieces_price(const Unknowns& prices) {
+    return *std::max_element(prices.begin(), prices.end());
 }
 
 double pieces_of(const Observation& seen) {
@@ -122,19 +127,64 @@ double residual(const Observation& seen, const Unknowns& prices) {
     return (seen.time - dot(seen.amounts, prices)) / modelled(seen, prices);
 }
 
-double sigma_of(const std::vector<Observation>& all, const Unknowns& prices) {
-    std::vector<double> sizes;
-    sizes.reserve(all.size());
-    for (const Observation& seen : all) sizes.push_back(std::abs(residual(seen, prices)));
-    return std::max(sigma_of_median * median(std::move(sizes)), least_sigma);
+std::vector<double> residuals_of(const std::vector<Observation>& all, const Unknowns& prices) {
+    std::vector<double> residuals;
+    residuals.reserve(all.size());
+    for (const Observation& seen : all) residuals.push_back(residual(seen, prices));
+    return residuals;
 }
 
-// Each price is 1, give or take 1, but triangles and points are rather as dear as each other, give or take that much.
-void add_belief(LeastSquares& sum, double weight, const Unknowns& prices) {
+double sigma_of(std::vector<double> residuals) {
+    for (double& value : residuals) value = std::abs(value);
+    return std::max(sigma_of_median * median(std::move(residuals)), least_sigma);
+}
+
+// A machine that is slow in one frame is slow in the next: of residuals r that share `likeness` with the one before,
+// what is new is r(k) - likeness r(k - 1). Fitting that (Cochrane and Orcutt 1949) keeps a drift from being taken for
+// the price of whatever drifted with it.
+std::vector<double> news_of(std::vector<double> residuals, double likeness) {
+    for (std::size_t i = residuals.size() - 1; i > 0; --i) residuals[i] -= likeness * residuals[i - 1];
+    return residuals;
+}
+
+// Of neighbours, hitches clipped; 0 where it may be chance.
+double likeness_of(std::vector<double> residuals) {
+    constexpr double most = 0.95, chance = 3;  // chance: sigmas
+    const double clip = 3 * sigma_of(residuals);
+    double both = 0, squares = 0, before = 0;
+    for (const double value : residuals) {
+        const double now = std::clamp(value, -clip, clip);
+        both += now * before;
+        squares += now * now;
+        before = now;
+    }
+    const double likeness = squares > 0 ? both / squares : 0;
+    return likeness * std::sqrt(static_cast<double>(residuals.size())) > chance ? std::min(likeness, most) : 0;
+}
+
+// How sure the belief is of each price, in sigmas: people and updates whose count hardly changes tell nothing that a
+// drift of the machine couldn't tell as well.
+Unknowns sureness_of(const std::vector<Observation>& all) {
+    constexpr double least_change = 1.5;  // of the 95th percentile over the 5th
+    constexpr double sure = 100;
+    Unknowns sureness{1, 1, 1, 1, 1 / update_spread};
+    for (const std::size_t kind : {person, update}) {
+        std::vector<double> amounts;
+        for (const Observation& seen : all) amounts.push_back(seen.amounts[kind]);
+        std::sort(amounts.begin(), amounts.end());
+        const std::size_t tail = amounts.size() / 20;
+        if (amounts[amounts.size() - 1 - tail] < least_change * amounts[tail]) sureness[kind] = sure;
+    }
+    return sureness;
+}
+
+// Each price is 1, give or take 1 over how sure that is, but triangles and points are rather as dear as each other,
+// give or take that much.
+void add_belief(LeastSquares& sum, double weight, const Unknowns& prices, const Unknowns& sureness) {
     for (const std::size_t kind : {frame, person, update}) {
         Unknowns coefficients{};
-        coefficients[kind] = weight;
-        sum.add(coefficients, weight);
+        coefficients[kind] = weight * sureness[kind];
+        sum.add(coefficients, coefficients[kind]);
     }
     const double level = std::max({1.0, prices[triangle], prices[point]});
     Unknowns difference{}, both{};
@@ -145,19 +195,36 @@ void add_belief(LeastSquares& sum, double weight, const Unknowns& prices) {
     sum.add(both, 2 * level_weight * weight);
 }
 
-// The equations of one round: those of the times as the last round's prices weigh them, down from `clip` on, and those
-// of the belief, for which a frame is off by `noise`.
-LeastSquares equations(const std::vector<Observation>& all, const Unknowns& prices, double clip, double noise) {
+// A row's equation, relative to its model.
+struct Equation {
+    Unknowns coefficients{};
+    double value = 0;
+};
+
+Equation equation_of(const Observation& seen, const Unknowns& prices) {
+    const double model = modelled(seen, prices);
+    Equation equation{seen.amounts, seen.time / model};
+    for (double& coefficient : equation.coefficients) coefficient /= model;
+    return equation;
+}
+
+// The equations of one round: what is new in each row, as the last round's prices weigh it, down from `clip` on; and
+// those of the belief, for which a frame is off by `noise`.
+LeastSquares equations(const std::vector<Observation>& all, const Unknowns& prices, const Unknowns& sureness,
+                       double likeness, double clip, double noise) {
+    const std::vector<double> news = news_of(residuals_of(all, prices), likeness);
     LeastSquares sum;
-    for (const Observation& seen : all) {
-        const double off = std::abs(residual(seen, prices));
-        const double weight = off > clip ? std::sqrt(clip / off) : 1.0;
-        const double share = weight / modelled(seen, prices);
-        Unknowns coefficients = seen.amounts;
-        for (double& coefficient : coefficients) coefficient *= share;
-        sum.add(coefficients, seen.time * share);
+    Equation before;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const Equation now = equation_of(all[i], prices);
+        const double off = std::abs(news[i]), weight = off > clip ? std::sqrt(clip / off) : 1.0;
+        Unknowns coefficients = now.coefficients;
+        for (std::size_t k = 0; k < coefficients.size(); ++k)
+            coefficients[k] = weight * (coefficients[k] - likeness * before.coefficients[k]);
+        sum.add(coefficients, weight * (now.value - likeness * before.value));
+        before = now;
     }
-    add_belief(sum, std::max(noise, least_belief), prices);
+    add_belief(sum, std::max(noise, least_belief), prices, sureness);
     return sum;
 }
 
@@ -166,24 +233,30 @@ struct Solution {
     Unknowns sigma{};
 };
 
-// Iteratively reweighted least squares. The first round has no prices: residuals are relative to the times, all weigh
-// the same, and the belief decides only what is left open.
-Solution solve(const std::vector<Observation>& all) {
-    Solution solution;
+// Iteratively reweighted least squares from `solution` on. Without prices, in the first round, residuals are relative
+// to the times, all weigh the same, and the belief decides only what is left open.
+void refine(Solution& solution, const std::vector<Observation>& all, double likeness) {
+    const Unknowns sureness = sureness_of(all);
     double sigma = 0, change = 1;
     for (int round = 0; round < most_rounds && change > std::max(settled, settled_noise * sigma); ++round) {
-        const LeastSquares sum = round == 0 ? equations(all, {}, std::numeric_limits<double>::infinity(), 0)
-                                            : equations(all, solution.prices, huber * sigma, sigma);
+        if (pieces_price(solution.prices) > 0) sigma = sigma_of(news_of(residuals_of(all, solution.prices), likeness));
+        const double clip = sigma > 0 ? huber * sigma : std::numeric_limits<double>::infinity();
+        const LeastSquares sum = equations(all, solution.prices, sureness, likeness, clip, sigma);
         const Unknowns before = solution.prices;
         solution.prices = sum.solve_non_negative();
-        sigma = sigma_of(all, solution.prices);
         const Unknowns variances = sum.variances();
         change = 0;
         for (std::size_t i = 0; i < before.size(); ++i) {
-            solution.sigma[i] = sigma * std::sqrt(variances[i]);
+            solution.sigma[i] = sureness[i] > 1 ? 1 : sigma * std::sqrt(variances[i]);  // believed: a guess
             change = std::max(change, std::abs(solution.prices[i] - before[i]) / (1 + solution.prices[i]));
         }
     }
+}
+
+Solution solve(const std::vector<Observation>& all) {
+    Solution solution;
+    refine(solution, all, 0);
+    refine(solution, all, likeness_of(residuals_of(all, solution.prices)));
     return solution;
 }
 

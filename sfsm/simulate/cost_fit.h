@@ -24,12 +24,13 @@ struct CostFit {
 };
 
 // The prices of the least Huber loss of time / model - 1: noise is relative, and a pause that takes fifty times as long
-// weighs no more than a frame that is off by the usual noise. What rows can't tell (a kind of work that was never
-// drawn, or that never changes and so can't be told from what every frame has) is settled by a belief: prices are in
-// the proportion the predictive law begins with, a triangle 1, a point 2, a person 50, an update 300, each give or take
-// as much again (1 sigma); of triangles and points the known one tells of the other. Against hundreds of frames of some
-// per cent of noise that is weak, and where times have no noise it moves nothing that they tell. So the time of a
-// constant number of people is shared between them and the frame, and triangles that a run has none of are not free.
+// weighs no more than a frame that is off by the usual noise. Where residuals are like their neighbours, only what is
+// new in each is fitted: a machine's drift is no price. What rows can't tell (a kind of work that was never drawn, or
+// people or updates whose count hardly changed) is settled by a belief: a triangle 1 piece, a point 2, a person 50, an
+// update 4, as our renderer has them, each give or take as much again (1 sigma; an update, which is dear where people
+// are skinned, 300); of triangles and points the known one tells of the other. Against hundreds of frames of some per
+// cent of noise that is weak, and where times have no noise it moves nothing that they tell. So the time of a constant
+// number of people is shared between them and the frame, and triangles that a run has none of are not free.
 //
 // Rows without a time, or one more than a thousandfold from the median, are left out. Throws std::runtime_error where
 // fewer than 16 are left, or no work is counted in any.

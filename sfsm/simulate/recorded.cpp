@@ -38,8 +38,14 @@ struct Steps {
     Steps(Steps&&) = default;  // vectors keep their memory
 };
 
+// What a frame took that the model says takes `model_ms`.
+struct Load {
+    double ms = 1, model_ms = 1;
+    double factor() const { return ms / model_ms; }
+};
+
 struct RecordedFrame {
-    double load = 1;
+    Load load;
     double range = 0;       // L [m]
     std::size_t steps = 0;  // an index
 };
@@ -52,15 +58,16 @@ public:
 
     // What frame `frame` took and how it was drawn.
     void record(std::int64_t frame, double ms, const Decision& decision) {
-        at(frame).load = ms / model_ms(frame, plan(frame, decision));
+        at(frame).load = {ms, model_ms(frame, plan(frame, decision))};
     }
-    void set_load(std::int64_t frame, double load) { at(frame).load = load; }
-    double load(std::int64_t frame) const { return at(frame).load; }
+    void set_load(std::int64_t frame, const Load& load) { at(frame).load = load; }
+    const Load& load(std::int64_t frame) const { return at(frame).load; }
 
     double range(std::int64_t frame) const override { return at(frame).range; }
     const Forecast* forecast(std::int64_t frame) const override { return &steps_[at(frame).steps].forecast; }
     double cost_ms(std::int64_t frame, const Decision& decision) const override {
-        return load(frame) * model_ms(frame, plan(frame, decision));
+        // In this order the recorded decision takes the recorded time to the bit.
+        return load(frame).ms * (model_ms(frame, plan(frame, decision)) / load(frame).model_ms);
     }
     Work work(std::int64_t frame, const Decision& decision) const override;
     double detail(std::int64_t frame, const Decision& decision) const override {
@@ -128,7 +135,8 @@ Decision RecordedPlant::optimum(std::int64_t frame, double limit_ms) const {
     const Forecast& forecast = *this->forecast(frame);
     const WorkPrices prices = this->prices(frame);
     const double least_ms = least_plan_ms(forecast, prices) * (1 + rounding);
-    const Plan best = least_loss_plan(forecast, range(frame), prices, std::max(limit_ms / load(frame), least_ms));
+    const Plan best =
+        least_loss_plan(forecast, range(frame), prices, std::max(limit_ms / load(frame).factor(), least_ms));
     return decision_of(best, range(frame));
 }
 
@@ -197,7 +205,7 @@ RecordedPlant own_plant(std::span<const TraceRow> rows, std::span<const std::siz
     }
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const double range = range_of.empty() ? static_view.range : rows[range_of[i]].range;
-        frames.push_back({1, range, place[forecast_of[i]]});
+        frames.push_back({{}, range, place[forecast_of[i]]});
     }
     return {fit.prices, fit.median_ms, std::move(steps), std::move(frames)};
 }
@@ -211,7 +219,7 @@ RecordedPlant reference_plant(std::size_t rows) {
     const Forecast& forecast = *crowd.forecast(0);
     std::vector<Steps> steps;
     steps.emplace_back(forecast.motion, forecast.splats, forecast.people);
-    return {prices, 1, std::move(steps), std::vector<RecordedFrame>(rows, {1, static_view.range, 0})};
+    return {prices, 1, std::move(steps), std::vector<RecordedFrame>(rows, {{}, static_view.range, 0})};
 }
 
 // The same share of another range.

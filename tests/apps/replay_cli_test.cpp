@@ -1,0 +1,280 @@
+// The replay program as a user meets it: exit codes, messages, files.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "sfsm/trace.h"
+#include "tests/command.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using tests::Directory;
+using tests::Outcome;
+
+Outcome replay(const std::string& arguments) {
+    return tests::run("replay", arguments);
+}
+
+// A run whose work is known, as stadium would have recorded it; made once.
+sfsm::Trace recorded() {
+    static const std::string text = replay("--simulate camera-cut --laws predictive --seeds 1 --csv -").out;
+    std::istringstream in(text);
+    sfsm::Trace trace = sfsm::read_trace(in, "camera-cut");
+    trace.rows.resize(600);
+    return trace;
+}
+
+std::string text_of(const sfsm::Trace& trace) {
+    std::ostringstream out;
+    sfsm::write_trace_header(out, trace.settings);
+    for (const sfsm::TraceRow& row : trace.rows) write_trace_row(out, row);
+    return out.str();
+}
+
+class ReplayProgram : public testing::Test {
+protected:
+    std::string save(const sfsm::Trace& trace, const std::string& name = "t.csv") const {
+        std::ofstream(folder_ / name, std::ios::binary) << text_of(trace);
+        return folder_ / name;
+    }
+    // Two processes, as PresentMon interleaves them.
+    std::string capture() const {
+        std::ofstream file(folder_ / "game.csv");
+        file << "Application,ProcessID,SwapChainAddress,TimeInSeconds,MsBetweenPresents,Dropped\n";
+        for (int i = 0; i < 400; ++i) {
+            if (i % 3 == 0) file << "dwm.exe,7,0x1," << 0.048 * i << ",48,0\n";
+            file << "game.exe,42,0x2," << 0.016 * i << ',' << (i < 200 ? 16 : 32) << ",0\n";
+        }
+        return folder_ / "game.csv";
+    }
+    std::string in_folder(const std::string& name) const { return folder_ / name; }
+    std::string content(const std::string& name) const { return tests::read_file(folder_ / name); }
+
+    Directory folder_;
+};
+
+TEST_F(ReplayProgram, HelpAndVersionSucceed) {
+    const Outcome help = replay("--help"), version = replay("--version");
+    EXPECT_EQ(help.code, 0);
+    for (const char* word : {"--verify", "--fit", "--open-loop", "--delay", "--process", "--target-ms", "--csv",
+                             "--json", "--report", "--svg", "--law", "Examples:"}) {
+        EXPECT_NE(help.out.find(word), std::string::npos) << word;
+    }
+    EXPECT_EQ(version.code, 0);
+    EXPECT_TRUE(version.out.starts_with("replay ")) << version.out;
+}
+
+TEST_F(ReplayProgram, UsageErrorsAreOneLineAndCode2) {
+    const std::string trace = save(recorded());
+    const std::pair<std::string, const char*> bads[] = {
+        {"", "found no TRACE"},
+        {"--nonsense", "--nonsense"},
+        {trace + " --nonsense", "--nonsense"},
+        {trace + " --law papier", "papier"},
+        {trace + " --target-ms nan", "nan"},
+        {trace + " --target-ms 10,5@3,4@2", "expected a frame"},
+        {trace + " --delay 17", "--delay"},
+        {trace + " --delay -1", "--delay"},
+        {trace + " --csv - --json -", "stdout"},
+        {trace + " --report - --svg -", "stdout"},
+        {trace + " --csv x.csv --law paper,predictive", "one law"},
+        {trace + " --open-loop --law oracle", "oracle"},
+        {trace + " --verify --target-ms 5", "--verify"},
+        {trace + " --fit --law paper", "--fit"},
+        {trace + " --json " + trace, "--json"},
+        {trace + " another.csv", "another.csv"},
+        {trace + " --csv", "--csv"},
+    };
+    for (const auto& [arguments, named] : bads) {
+        const Outcome outcome = replay(arguments);
+        EXPECT_EQ(outcome.code, 2) << arguments << ": " << outcome.err;
+        EXPECT_NE(outcome.err.find(named), std::string::npos) << arguments << ": " << outcome.err;
+        EXPECT_TRUE(tests::one_line(outcome.err)) << outcome.err;
+    }
+}
+
+TEST_F(ReplayProgram, BadFilesAreOneLineAndCode1) {
+    std::ofstream(in_folder("damaged.csv")) << "# law=paper\nhello\n";
+    std::ofstream(in_folder("empty.csv"));
+    sfsm::Trace unmeasured = recorded();
+    for (sfsm::TraceRow& row : unmeasured.rows) row.frame_ms = NAN;
+    const std::string trace = save(recorded()), folder = fs::path(trace).parent_path();
+    const std::pair<std::string, const char*> bads[] = {
+        {in_folder("missing.csv"), "missing.csv: No such file"},
+        {in_folder("damaged.csv"), "damaged.csv:2: found"},
+        {in_folder("empty.csv"), "empty.csv"},
+        {folder, "expected"},
+        {save(unmeasured, "unmeasured.csv"), "expected"},
+        {capture() + " --process nobody.exe", "game.exe"},
+        {capture() + " --verify", "expected a trace of ours"},
+        {capture() + " --fit", "expected a trace of ours"},
+        {trace + " --csv " + in_folder("no/such/folder.csv"), "cannot write"},
+        {trace + " --csv " + folder, "found a directory, expected a file"},
+        {trace + " --report /dev/full", "cannot write /dev/full: No space left"},
+    };
+    for (const auto& [arguments, named] : bads) {
+        const Outcome outcome = replay(arguments);
+        EXPECT_EQ(outcome.code, 1) << arguments << ": " << outcome.err;
+        EXPECT_NE(outcome.err.find(named), std::string::npos) << arguments << ": " << outcome.err;
+        EXPECT_EQ(outcome.out, "") << arguments;
+    }
+}
+
+TEST_F(ReplayProgram, VerifiesARecordedRun) {
+    const Outcome outcome = replay(save(recorded()) + " --verify");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("all 600 decisions of law predictive reproduced to the bit"), std::string::npos)
+        << outcome.out;
+}
+
+TEST_F(ReplayProgram, NamesTheFrameAndFieldThatAreNotReproduced) {
+    sfsm::Trace trace = recorded();
+    trace.rows[57].decision.splat_size = 31.25;
+    const Outcome outcome = replay(save(trace) + " --verify");
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_NE(outcome.err.find("frame 57: found splat_px 31.25"), std::string::npos) << outcome.err;
+    EXPECT_TRUE(tests::one_line(outcome.err)) << outcome.err;
+}
+
+TEST_F(ReplayProgram, WillNotVerifyWhatWasForcedOrNotSaid) {
+    sfsm::Trace forced = recorded();
+    forced.settings["state"] = "2";
+    Outcome outcome = replay(save(forced) + " --verify");
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_NE(outcome.err.find("found state=2"), std::string::npos) << outcome.err;
+    for (const char* key : {"law", "state", "delay"}) {
+        sfsm::Trace trace = recorded();
+        trace.settings.erase(key);
+        outcome = replay(save(trace) + " --verify");
+        EXPECT_EQ(outcome.code, 1) << key;
+        EXPECT_NE(outcome.err.find("found no setting '" + std::string(key) + "'"), std::string::npos) << outcome.err;
+    }
+}
+
+TEST_F(ReplayProgram, NamesTheTraceWhoseDelayIsNone) {
+    sfsm::Trace trace = recorded();
+    trace.settings["delay"] = "99";
+    const std::string saved = save(trace);
+    for (const char* option : {" --verify", ""}) {
+        const Outcome outcome = replay(saved + option);
+        EXPECT_EQ(outcome.code, 1);
+        EXPECT_NE(outcome.err.find(saved + ": found setting delay=99"), std::string::npos) << outcome.err;
+    }
+}
+
+TEST_F(ReplayProgram, WritesATraceThatVerifiesAgain) {
+    const std::string trace = save(recorded());
+    for (const std::string loop : {"", " --open-loop"}) {
+        ASSERT_EQ(replay(trace + loop + " --target-ms 20,9@300 --delay 3 --csv " + in_folder("out.csv")).code, 0);
+        const Outcome again = replay(in_folder("out.csv") + " --verify");
+        EXPECT_EQ(again.code, 0) << again.err;
+        EXPECT_NE(content("out.csv").find("# target_ms=20,9@300\n"), std::string::npos);
+    }
+}
+
+TEST_F(ReplayProgram, AnOpenLoopOfUnchangedInputGivesTheSameDecisions) {
+    sfsm::Trace trace = recorded();
+    ASSERT_EQ(replay(save(trace) + " --open-loop --csv " + in_folder("out.csv")).code, 0);
+    const auto rows_of = [](const std::string& text) { return text.substr(text.find("frame,target_ms")); };
+    EXPECT_EQ(rows_of(content("out.csv")), rows_of(text_of(trace)));
+}
+
+// The load is the recording's whoever decides, and a law that aims at less takes less.
+TEST_F(ReplayProgram, AClosedLoopAnswersToItsDecisions) {
+    const std::string trace = save(recorded());
+    const json loose = json::parse(replay(trace + " --target-ms 20 --json -").out);
+    const json tight = json::parse(replay(trace + " --target-ms 8 --json -").out);
+    EXPECT_EQ(loose["recorded"]["mean_ms"], tight["recorded"]["mean_ms"]);
+    EXPECT_LT(tight["runs"][0]["p50_ms"], 9);
+    EXPECT_GT(loose["runs"][0]["p50_ms"], tight["runs"][0]["p50_ms"]);
+    EXPECT_LT(tight["runs"][0]["quality"], 1.01);
+}
+
+TEST_F(ReplayProgram, SeveralLawsGoIntoOneTableAndOneList) {
+    const Outcome outcome = replay(save(recorded()) + " --law oracle,paper,filament --json " + in_folder("runs.json"));
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    for (const char* name : {"\nrecorded ", "\noracle ", "\npaper ", "\nfilament "})
+        EXPECT_NE(outcome.out.find(name), std::string::npos) << outcome.out;
+    const json runs = json::parse(content("runs.json")).at("runs");
+    ASSERT_EQ(runs.size(), 3u);
+    EXPECT_EQ(runs[1].at("law"), "paper");
+    EXPECT_EQ(runs[1].at("frames"), 600);
+}
+
+TEST_F(ReplayProgram, TakesTheBusiestProcessOrTheOneAskedFor) {
+    const Outcome busiest = replay(capture() + " --json -");
+    ASSERT_EQ(busiest.code, 0) << busiest.err;
+    EXPECT_EQ(json::parse(busiest.out).at("process"), "game.exe");
+    EXPECT_EQ(json::parse(busiest.out).at("recorded").at("frames"), 400);
+    EXPECT_NE(busiest.err.find("dwm.exe"), std::string::npos) << "the others are listed: " << busiest.err;
+    const Outcome asked = replay(capture() + " --process dwm.exe --json -");
+    ASSERT_EQ(asked.code, 0) << asked.err;
+    EXPECT_EQ(json::parse(asked.out).at("recorded").at("frames"), 134);
+}
+
+// 16 ms of load are held at 12 as soon as they are known, and 32 are too.
+TEST_F(ReplayProgram, HoldsACaptureAtTheTarget) {
+    const Outcome outcome = replay(capture() + " --target-ms 12 --json -");
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const json figures = json::parse(outcome.out);
+    EXPECT_EQ(figures.at("recorded").at("over_5pct"), 1);
+    EXPECT_LT(figures.at("runs").at(0).at("over_5pct"), 0.05);
+    EXPECT_GT(figures.at("runs").at(0).at("within_5pct"), 0.9);
+}
+
+TEST_F(ReplayProgram, FitsWhatWorkCost) {
+    const Outcome outcome = replay(save(recorded()) + " --fit --json " + in_folder("fit.json"));
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("R2"), std::string::npos) << outcome.out;
+    const json fit = json::parse(content("fit.json"));
+    EXPECT_GT(fit.at("r2"), 0.5);
+    EXPECT_LE(fit.at("residual").at("p5"), fit.at("residual").at("p95"));
+    for (const auto& [name, price] : fit.at("prices_ms").items()) EXPECT_GE(price, 0) << name;
+}
+
+TEST_F(ReplayProgram, DrawsReports) {
+    const Outcome outcome = replay(save(recorded()) + " --law paper,predictive --report " + in_folder("r.html") +
+                                   " --svg " + in_folder("r.svg"));
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_TRUE(content("r.html").starts_with("<!doctype html>")) << content("r.html").substr(0, 100);
+    EXPECT_NE(content("r.svg").find("<svg"), std::string::npos);
+}
+
+TEST_F(ReplayProgram, TheTableGoesToStandardOutputUnlessAFileDoes) {
+    const std::string trace = save(recorded());
+    EXPECT_NE(replay(trace).out.find("\npredictive "), std::string::npos);
+    EXPECT_EQ(replay(trace + " --csv -").out.find("\npredictive "), std::string::npos);
+    EXPECT_NE(replay(trace + " --json " + in_folder("s.json")).out.find("\npredictive "), std::string::npos);
+}
+
+TEST_F(ReplayProgram, NothingHalfWrittenIsLeft) {
+    const std::string trace = save(recorded());
+    std::ofstream(in_folder("out.csv")) << "older";
+    ASSERT_EQ(replay(trace + " --csv " + in_folder("out.csv") + " --json " + in_folder("no/such.json")).code, 1);
+    EXPECT_EQ(content("out.csv"), "older");
+    EXPECT_EQ(folder_.names().size(), 2u) << "the trace and the output, no temporary file";
+    fs::create_symlink(in_folder("out.csv"), in_folder("link.csv"));
+    ASSERT_EQ(replay(trace + " --csv " + in_folder("link.csv")).code, 0);
+    EXPECT_TRUE(fs::is_symlink(in_folder("link.csv"))) << "a link is written through, not replaced";
+    EXPECT_EQ(folder_.names().size(), 3u);
+}
+
+// Every run that the project keeps: what it decided is what its law decides today.
+TEST(Traces, AreAllReproducedToTheBit) {
+    int traces = 0;
+    for (const auto& entry : fs::directory_iterator(fs::path(GRANDSTAND_SOURCE) / "traces")) {
+        if (entry.path().extension() != ".csv") continue;
+        ++traces;
+        const Outcome outcome = replay(entry.path().string() + " --verify");
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+    }
+    EXPECT_GT(traces, 0);
+}
+
+}  // namespace
