@@ -48,7 +48,8 @@ struct Report {
     std::vector<ReportRun> runs;                             // >= 1, each with >= 1 frame; the first is shown first
 };
 
-// Text may hold anything: it is escaped. The same report gives the same bytes.
+// Text may hold anything: it is escaped. The same report gives the same bytes. Runs have eight colours; the ninth has
+// the first's again. A page takes at most 28 bytes a frame and run, a picture never more than some 100 KB a run.
 void write_report_html(std::ostream& out, const Report& report);
 void write_report_svg(std::ostream& out, const Report& report);
 
