@@ -83,21 +83,26 @@ sfsm::ReportRun report_run(const Rerun& rerun) {
 }
 
 void write_scores(std::ostream& out, std::span<const sfsm::ReportRun> runs) {
-    std::size_t name_width = 3;
-    for (const sfsm::ReportRun& run : runs) name_width = std::max(name_width, run.name.size());
-    const auto column = [](const sfsm::Score& score) {
+    const auto label = [](const sfsm::Score& score) {
         return score.name + (score.unit.empty() ? "" : " [" + score.unit + "]");
     };
-    out << std::left << std::setw(static_cast<int>(name_width)) << "law" << std::right;
-    for (const sfsm::Score& score : runs.front().scores) out << "  " << column(score);
-    out << '\n';
-    for (const sfsm::ReportRun& run : runs) {
-        out << std::left << std::setw(static_cast<int>(name_width)) << run.name << std::right;
-        for (const sfsm::Score& score : run.scores) {
-            out << "  " << std::setw(static_cast<int>(column(score).size())) << value_text(score);
-        }
+    std::size_t label_width = 0;
+    for (const sfsm::Score& score : runs.front().scores) label_width = std::max(label_width, label(score).size());
+    const auto begin_line = [&](const std::string& text) {
+        out << std::left << std::setw(static_cast<int>(label_width)) << text << std::right;
+    };
+    constexpr std::size_t narrowest = 8;
+    const auto put = [&](const sfsm::ReportRun& run, const std::string& text) {
+        out << "  " << std::setw(static_cast<int>(std::max(run.name.size(), narrowest))) << text;
+    };
+    begin_line("");
+    for (const sfsm::ReportRun& run : runs) put(run, run.name);
+    for (std::size_t i = 0; i < runs.front().scores.size(); ++i) {
         out << '\n';
+        begin_line(label(runs.front().scores[i]));
+        for (const sfsm::ReportRun& run : runs) put(run, value_text(run.scores[i]));
     }
+    out << '\n';
 }
 
 Json rerun_json(const Rerun& rerun) {

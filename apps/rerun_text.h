@@ -16,7 +16,7 @@ namespace apps {
 // With the scores of a closed loop where there are metrics; a list without has the same scores, without values.
 sfsm::ReportRun report_run(const Rerun& rerun);
 
-// A table of the runs' scores, a line a run, columns aligned.
+// A table of the runs' scores, a line a figure and a column a run.
 void write_scores(std::ostream& out, std::span<const sfsm::ReportRun> runs);
 
 // The summary's figures, then the metrics' where there are any; null for what is no number.

@@ -199,8 +199,8 @@ TEST_F(ReplayProgram, AClosedLoopAnswersToItsDecisions) {
 TEST_F(ReplayProgram, SeveralLawsGoIntoOneTableAndOneList) {
     const Outcome outcome = replay(save(recorded()) + " --law oracle,paper,filament --json " + in_folder("runs.json"));
     ASSERT_EQ(outcome.code, 0) << outcome.err;
-    for (const char* name : {"\nrecorded ", "\noracle ", "\npaper ", "\nfilament "})
-        EXPECT_NE(outcome.out.find(name), std::string::npos) << outcome.out;
+    for (const char* text : {"  recorded    oracle     paper  filament\n", "\ncontrol rate [%] "})
+        EXPECT_NE(outcome.out.find(text), std::string::npos) << outcome.out;
     const json runs = json::parse(content("runs.json")).at("runs");
     ASSERT_EQ(runs.size(), 3u);
     EXPECT_EQ(runs[1].at("law"), "paper");
@@ -242,15 +242,15 @@ TEST_F(ReplayProgram, DrawsReports) {
     const Outcome outcome = replay(save(recorded()) + " --law paper,predictive --report " + in_folder("r.html") +
                                    " --svg " + in_folder("r.svg"));
     ASSERT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_TRUE(content("r.html").starts_with("<!doctype html>")) << content("r.html").substr(0, 100);
+    EXPECT_TRUE(content("r.html").starts_with("<!DOCTYPE html>")) << content("r.html").substr(0, 100);
     EXPECT_NE(content("r.svg").find("<svg"), std::string::npos);
 }
 
 TEST_F(ReplayProgram, TheTableGoesToStandardOutputUnlessAFileDoes) {
     const std::string trace = save(recorded());
-    EXPECT_NE(replay(trace).out.find("\npredictive "), std::string::npos);
-    EXPECT_EQ(replay(trace + " --csv -").out.find("\npredictive "), std::string::npos);
-    EXPECT_NE(replay(trace + " --json " + in_folder("s.json")).out.find("\npredictive "), std::string::npos);
+    EXPECT_NE(replay(trace).out.find("\ncontrol rate "), std::string::npos);
+    EXPECT_EQ(replay(trace + " --csv -").out.find("\ncontrol rate "), std::string::npos);
+    EXPECT_NE(replay(trace + " --json " + in_folder("s.json")).out.find("\ncontrol rate "), std::string::npos);
 }
 
 TEST_F(ReplayProgram, NothingHalfWrittenIsLeft) {

@@ -70,6 +70,30 @@ TEST(StadiumProgram, SummaryHasTheFieldsOfTheContract) {
         EXPECT_NE(outcome.out.find("\"" + std::string(name) + "\":"), std::string::npos) << name;
 }
 
+TEST(StadiumProgram, LeavesAReportOfTheRun) {
+    const tests::Directory directory;
+    const std::string report = directory / "run.html";
+    const tests::Outcome outcome = tests::run("stadium", small + "--frames 3 --report " + report);
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_TRUE(tests::read_file(report).starts_with("<!DOCTYPE html>"));
+    EXPECT_NE(tests::read_file(report).find("llvmpipe"), std::string::npos) << "says what it ran on";
+    EXPECT_TRUE(tests::run("stadium", small + "--frames 1 --report -").out.starts_with("<!DOCTYPE html>"));
+    expect_usage_error("--report - --trace -", "stdout");
+    EXPECT_EQ(directory.names(), std::vector<std::string>{"run.html"});
+}
+
+TEST(StadiumProgram, PeoplePourIn) {
+    const tests::Outcome outcome = tests::run("stadium", small + "--pour-in 0.1 --frames 9 --trace -");
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const std::vector<std::string> visible = column(outcome.out, "visible");
+    ASSERT_EQ(visible.size(), 9u);
+    EXPECT_EQ(visible.front(), "0");
+    for (std::size_t i = 1; i < visible.size(); ++i) EXPECT_GE(std::stoi(visible[i]), std::stoi(visible[i - 1]));
+    EXPECT_GT(std::stoi(visible.back()), 0);
+    expect_usage_error("--pour-in -1", "--pour-in");
+    expect_usage_error("--pour-in nan", "--pour-in");
+}
+
 TEST(StadiumProgram, SameSeedAndStateGiveTheSameBytes) {
     const tests::Directory directory;
     for (const std::string state : {"0", "1", "2"}) {
