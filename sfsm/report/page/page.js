@@ -297,6 +297,8 @@ function begin() {
   byId("theme").addEventListener("click", nextTheme);
   window.addEventListener("beforeprint", () => setPrinting(true));
   window.addEventListener("afterprint", () => setPrinting(false));
+  drawDue();
+  drawSpread();
   new ResizeObserver(redraw).observe(byId("times"));
   chooseScale(view.scale);
 }
