@@ -22,6 +22,7 @@
 #include "motion/pose.h"
 #include "pointsample/gltf.h"
 #include "pointsample/point_model.h"
+#include "pointsample/sample.h"
 
 namespace {
 
@@ -95,11 +96,7 @@ const motion::Clip& find_clip(const motion::Character& character, const std::str
                                  : "an index below " + std::to_string(character.clips.size()) + " or one of " + names));
 }
 
-struct Surface {
-    std::vector<glm::vec3> positions, normals;
-};
-
-Surface posed(const motion::Character& character, const std::string& choice) {
+pointsample::PosedMesh posed(const motion::Character& character, const std::string& choice) {
     motion::Pose pose;
     if (choice.empty()) {
         motion::evaluate_rest(character, pose);
@@ -107,7 +104,7 @@ Surface posed(const motion::Character& character, const std::string& choice) {
         const PoseChoice chosen = parse_pose(choice);
         motion::evaluate(character, find_clip(character, chosen.clip), chosen.seconds, pose);
     }
-    Surface surface;
+    pointsample::PosedMesh surface;
     motion::skin(character.mesh, pose, surface.positions, surface.normals);
     return surface;
 }
@@ -156,12 +153,13 @@ void run(const Options& options) {
     if (!options.stats.empty()) stats.emplace(options.stats);
 
     const motion::Character character = pointsample::load_gltf(options.input);
-    const Surface surface = posed(character, options.pose);
+    const pointsample::PosedMesh surface = posed(character, options.pose);
     pointsample::PointModel model;
     {
         apps::ProgressBar bar("Sampling " + character.name);
-        model = pointsample::sample(character.mesh, surface.positions, surface.normals,
-                                    {static_cast<std::size_t>(options.points), options.seed, options.visible_only},
+        model = pointsample::sample(character.mesh, {&surface, 1},
+                                    {static_cast<std::size_t>(options.points), options.seed,
+                                     pointsample::Order::progressive, options.visible_only},
                                     [&](double fraction) { bar(fraction); });
     }
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;

@@ -5,6 +5,7 @@
 #include "apps/interrupt.h"
 #include "apps/progress.h"
 #include "pointsample/gltf.h"
+#include "pointsample/sample.h"
 #include "scene/cast.h"
 #include "scene/person.h"
 
@@ -21,22 +22,17 @@ std::size_t point_count(const motion::Mesh& mesh) {
     return std::clamp(mesh.triangle_count() / 2, fewest, most);
 }
 
-// Points are sampled in the pose that most people are seen in, where limbs are apart.
+// The first pose is the one that most people are seen in, where limbs are apart.
 pointsample::PointModel sample_points(const motion::Character& character, const std::vector<int>& clips,
                                       std::uint64_t seed) {
-    motion::Pose pose;
-    if (clips.empty())
-        motion::evaluate_rest(character, pose);
-    else
-        motion::evaluate(character, character.clips[clips.front()], 0.0, pose);
-    std::vector<glm::vec3> positions, normals;
-    motion::skin(character.mesh, pose, positions, normals);
+    constexpr std::size_t poses = 16;
     pointsample::SampleOptions options;
     options.count = point_count(character.mesh);
     options.seed = seed;
     throw_if_interrupted();
     ProgressBar bar("Sampling " + character.name);
-    return pointsample::sample(character.mesh, positions, normals, options, [&](double f) { bar(f); });
+    return pointsample::sample(character.mesh, pointsample::spread_poses(character, clips, poses), options,
+                               [&](double f) { bar(f); });
 }
 
 void add_character(Stage& stage, motion::Character character, std::uint64_t seed, std::size_t byte_budget) {

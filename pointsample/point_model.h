@@ -1,46 +1,43 @@
-// A character as points: a progressive sequence in which every prefix covers the whole surface evenly, so that a
-// person is drawn by the first n of them.
+// A character as points: surface points in an order in which any first part of them is a sample of the whole surface,
+// so that a person is drawn by the first n of them.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
+#include <glm/glm.hpp>
 #include <vector>
 
-#include <glm/glm.hpp>
-
-#include "motion/character.h"
+#include "motion/mesh.h"
 #include "motion/pose_table.h"
 
 namespace pointsample {
 
-// Structure of arrays, one element a point.
+// How well the first `points` points cover the surface: in no pose that the model was made for is any visible spot of
+// it farther than `radius` [units] from the nearest of them.
+struct Coverage {
+    std::uint32_t points = 0;
+    float radius = 0;
+};
+
+// Structure of arrays, one element a point, but for coverage.
 struct PointModel {
     std::vector<motion::SurfacePoint> surface;  // where on the mesh
-    std::vector<glm::vec3> positions;           // of the pose they were sampled in
+    std::vector<glm::vec3> positions;           // of the pose they are given in
     std::vector<glm::vec3> normals;             // unit; interpolated from the vertices
     std::vector<glm::u8vec4> colors;            // vertex colour x texture, sRGB-encoded
     std::vector<motion::Tint> tints;
-    std::vector<glm::u16vec4> joints;           // the four heaviest of the triangle's
-    std::vector<glm::vec4> weights;             // >= 0, sum 1
-    float area = 0;                             // of all triangles, hidden ones too [units^2]
-    std::size_t hidden_removed = 0;             // candidates that no ray from outside could see
+    std::vector<glm::u16vec4> joints;  // the four heaviest of the triangle's
+    std::vector<glm::vec4> weights;    // >= 0, sum 1
+    std::vector<float> spacing;        // [units] to the nearest point before it; infinite for the first
+    std::vector<Coverage> coverage;    // by rising points, half an octave apart, the last of all points; radius falls
+    float area = 0;                    // of all triangles, hidden ones too [units^2]
+    std::size_t hidden_removed = 0;    // so many more the whole surface would have: those that can't be seen from outside
 
     std::size_t size() const { return positions.size(); }
-};
 
-struct SampleOptions {
-    std::size_t count = 4096;   // exactly as many points come back; >= 1
-    std::uint64_t seed = 1;
-    bool visible_only = true;   // drop points that cannot be seen from outside, and put others in their place
+    // The fewest points that leave no hole in any pose when each is drawn as a square of `splat_px` [px] and a unit is
+    // `pixels_per_unit` [px] long; size() + 1 if all together leave one. A person of h pixels has h / height of them.
+    std::size_t hole_free_points(float pixels_per_unit, float splat_px) const;
 };
-
-// Area-uniform points on the mesh in the given posed geometry (motion::skin's outputs). The same bits on every run and
-// thread count; n points are the first n of any larger number. Triangles without a finite area get none. `progress`
-// gets rising fractions, 1 in the end. Throws std::runtime_error if no triangle has an area, or less than a thousandth
-// of it is visible.
-PointModel sample(const motion::Mesh& mesh, const std::vector<glm::vec3>& positions,
-                  const std::vector<glm::vec3>& normals, const SampleOptions& options,
-                  const std::function<void(double)>& progress = {});
 
 }  // namespace pointsample

@@ -1,3 +1,5 @@
+#include "pointsample/sample.h"
+
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -12,7 +14,7 @@
 #include <string>
 #include <utility>
 
-#include "pointsample/point_model.h"
+#include "motion/pose.h"
 #include "pointsample/srgb.h"
 #include "pointsample/visibility.h"
 
@@ -347,11 +349,28 @@ private:
 
 }  // namespace
 
-PointModel sample(const Mesh& mesh, const std::vector<glm::vec3>& positions, const std::vector<glm::vec3>& normals,
-                  const SampleOptions& options, const std::function<void(double)>& progress) {
-    assert(options.count >= 1);
-    assert(positions.size() == mesh.vertex_count() && normals.size() == mesh.vertex_count());
-    return Sampler(mesh, positions, normals, options).run(progress);
+PointModel sample(const Mesh& mesh, std::span<const PosedMesh> poses, const SampleOptions& options,
+                  const std::function<void(double)>& progress) {
+    assert(options.count >= 1 && !poses.empty());
+    return Sampler(mesh, poses.front().positions, poses.front().normals, options).run(progress);
+}
+
+std::vector<PosedMesh> spread_poses(const motion::Character& character, std::span<const int> clips, std::size_t count) {
+    assert(count >= 1);
+    std::vector<PosedMesh> poses(clips.empty() ? 1 : count);
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        motion::Pose pose;
+        if (clips.empty()) {
+            motion::evaluate_rest(character, pose);
+        } else {
+            const motion::Clip& clip = character.clips[static_cast<std::size_t>(clips[i % clips.size()])];
+            const std::size_t rounds = (poses.size() + clips.size() - 1) / clips.size();
+            const double share = static_cast<double>(i / clips.size()) / static_cast<double>(rounds);
+            motion::evaluate(character, clip, share * clip.duration, pose);
+        }
+        motion::skin(character.mesh, pose, poses[i].positions, poses[i].normals);
+    }
+    return poses;
 }
 
 }  // namespace pointsample

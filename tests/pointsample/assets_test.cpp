@@ -12,6 +12,7 @@
 #include "motion/pose.h"
 #include "pointsample/gltf.h"
 #include "pointsample/point_model.h"
+#include "pointsample/sample.h"
 
 namespace {
 
@@ -30,12 +31,10 @@ std::vector<fs::path> character_files() {
     return files;
 }
 
-struct Surface {
-    std::vector<glm::vec3> positions, normals;
-};
+using pointsample::PosedMesh;
 
-Surface skinned(const motion::Character& character, const motion::Pose& pose) {
-    Surface surface;
+PosedMesh skinned(const motion::Character& character, const motion::Pose& pose) {
+    PosedMesh surface;
     motion::skin(character.mesh, pose, surface.positions, surface.normals);
     return surface;
 }
@@ -145,8 +144,8 @@ TEST(Assets, ARedFoxIsRed) {
     const motion::Character fox = pointsample::load_gltf(assets / "Fox/Fox.glb");
     motion::Pose pose;
     motion::evaluate_rest(fox, pose);
-    const Surface surface = skinned(fox, pose);
-    const auto model = pointsample::sample(fox.mesh, surface.positions, surface.normals, {5000, 1, true});
+    const PosedMesh surface = skinned(fox, pose);
+    const auto model = pointsample::sample(fox.mesh, {&surface, 1}, {5000, 1, pointsample::Order::progressive, true});
     glm::dvec3 mean(0);
     for (const glm::u8vec4& color : model.colors) mean += glm::dvec3(color) / 5000.0;
     EXPECT_GT(mean.r, 1.4 * mean.b);
@@ -161,7 +160,7 @@ TEST(Assets, TrianglesFaceOutward) {
         const motion::Character character = pointsample::load_gltf(file);
         motion::Pose pose;
         motion::evaluate_rest(character, pose);
-        const Surface surface = skinned(character, pose);
+        const PosedMesh surface = skinned(character, pose);
         const glm::vec3 center = motion::bounds_of(surface.positions).center();
         double volume = 0, agreeing = 0, all = 0;
         for (std::size_t i = 0; i < character.mesh.indices.size(); i += 3) {

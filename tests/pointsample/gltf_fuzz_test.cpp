@@ -9,6 +9,7 @@
 #include "motion/pose.h"
 #include "pointsample/gltf.h"
 #include "pointsample/point_model.h"
+#include "pointsample/sample.h"
 #include "tests/pointsample/gltf_builder.h"
 
 namespace {
@@ -22,7 +23,10 @@ void use(const motion::Character& character) {
     motion::skin(character.mesh, pose, positions, normals);
     for (const std::uint32_t index : character.mesh.indices) ASSERT_LT(index, positions.size());
     try {
-        ASSERT_EQ(pointsample::sample(character.mesh, positions, normals, {20, 1, false}).size(), 20u);
+        const pointsample::PosedMesh posed{positions, normals};
+        ASSERT_EQ(
+            pointsample::sample(character.mesh, {&posed, 1}, {20, 1, pointsample::Order::progressive, false}).size(),
+            20u);
     } catch (const std::runtime_error&) {
         // no triangle has an area any more
     }

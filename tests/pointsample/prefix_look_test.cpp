@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "pointsample/sample.h"
 #include "tests/pointsample/shapes.h"
 
 namespace {
@@ -18,7 +19,8 @@ pointsample::PointModel two_toned_ball() {
     pointsample::SampleOptions options;
     options.count = 2000;
     options.visible_only = false;
-    return pointsample::sample(ball, ball.positions, ball.normals, options);
+    const pointsample::PosedMesh rest{ball.positions, ball.normals};
+    return pointsample::sample(ball, {&rest, 1}, options);
 }
 
 constexpr int skin = 0, shirt = 2;  // places in PrefixLook::tint

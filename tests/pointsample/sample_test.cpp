@@ -1,3 +1,5 @@
+#include "pointsample/sample.h"
+
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -19,7 +21,8 @@ using pointsample::PointModel;
 using pointsample::SampleOptions;
 
 PointModel sample(const motion::Mesh& mesh, std::size_t count, bool visible_only = false, std::uint64_t seed = 1) {
-    return pointsample::sample(mesh, mesh.positions, mesh.normals, {count, seed, visible_only});
+    const pointsample::PosedMesh rest{mesh.positions, mesh.normals};
+    return pointsample::sample(mesh, {&rest, 1}, {count, seed, pointsample::Order::progressive, visible_only});
 }
 
 template <typename T>
@@ -308,7 +311,8 @@ TEST(Sampler, ColorsAreTextureTimesVertexInLinearLight) {
 TEST(Sampler, ProgressOnlyRisesAndEndsAtOne) {
     const motion::Mesh sphere = tests::make_sphere(1, 2);
     double last = 0;
-    pointsample::sample(sphere, sphere.positions, sphere.normals, {100000, 1, false}, [&](double fraction) {
+    const pointsample::PosedMesh rest{sphere.positions, sphere.normals};
+    pointsample::sample(sphere, {&rest, 1}, {100000, 1, pointsample::Order::progressive, false}, [&](double fraction) {
         EXPECT_GT(fraction, last);
         last = fraction;
     });

@@ -6,6 +6,7 @@
 
 #include "motion/pose.h"
 #include "pointsample/point_model.h"
+#include "pointsample/sample.h"
 #include "render/select.h"
 #include "scene/cast.h"
 #include "scene/crowd.h"
@@ -24,13 +25,9 @@ struct SmallScene {
 
     explicit SmallScene(std::int64_t people) {
         const scene::Casting casting = scene::cast(person);
-        motion::Pose pose;
-        motion::evaluate_rest(person, pose);
-        std::vector<glm::vec3> positions, normals;
-        motion::skin(person.mesh, pose, positions, normals);
         pointsample::SampleOptions options;
         options.count = person.mesh.triangle_count() / 2;
-        points = pointsample::sample(person.mesh, positions, normals, options);
+        points = pointsample::sample(person.mesh, pointsample::spread_poses(person, {}, 1), options);
         poses.push_back(motion::bake_poses(person, casting.clips, points.surface, std::size_t{1} << 26));
         cast.push_back(casting.member);
         plan = scene::plan_stadium(people);

@@ -1,0 +1,18 @@
+// Meshes of any format people have: .glb and .gltf (gltf.h), .obj and .ply. By the file's extension, in any case.
+#pragma once
+
+#include <filesystem>
+
+#include "motion/character.h"
+
+namespace pointsample {
+
+// Wavefront OBJ: v (with vertex colours where there are any), vn, vt, f of any number of corners, usemtl with the
+// material's Kd and map_Kd (PNG or JPEG) from mtllib; everything else is skipped. PLY: ascii and binary of both byte
+// orders; vertices with x y z, normals and colours where there are any, faces of any number of corners. Polygons become
+// fans; missing normals are computed, area-weighted. A character of one node, without clips. Memory is bounded by the
+// file's own size, about 200 bytes a vertex and 100 a triangle. Throws std::runtime_error: one line with the path, the
+// line or element, what was found and what was expected; also for a file without triangles or with over 2^31 indices.
+motion::Character load_mesh(const std::filesystem::path& path);
+
+}  // namespace pointsample

@@ -1,0 +1,51 @@
+// Point models as files: our packed .pts, and PLY for other programs. Little-endian, the same bytes for the same model.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <iosfwd>
+#include <span>
+#include <string>
+
+#include "motion/pose.h"
+#include "pointsample/point_model.h"
+
+namespace pointsample {
+
+// What is drawn of a point: 12 bytes.
+struct PackedPoint {
+    std::uint16_t x, y, z;           // unorm over the file's box
+    std::int8_t normal_u, normal_v;  // octahedral, snorm
+    std::uint8_t red, green, blue;   // sRGB-encoded
+    std::uint8_t tint;               // motion::Tint
+};
+static_assert(sizeof(PackedPoint) == 12);
+
+// A .pts file in memory as it lies on disk: mapped, checked (magic, version, sizes, checksum) and then read in place.
+class PointsFile {
+public:
+    // Throws std::runtime_error: one line with the path, what was found and what was expected.
+    explicit PointsFile(const std::filesystem::path& path);
+    ~PointsFile();
+    PointsFile(const PointsFile&) = delete;
+    PointsFile& operator=(const PointsFile&) = delete;
+
+    motion::Bounds box() const;                      // of the points [units]
+    std::span<const PackedPoint> points() const;     // in the model's order
+    const std::string& key() const { return key_; }  // what it was made from, as write_pts was told
+    PointModel unpack() const;                       // everything; positions to 1/131070 of the box
+
+private:
+    void* bytes_ = nullptr;
+    std::size_t size_ = 0;
+    std::string key_;
+};
+
+// `key` may be anything up to 64 KiB.
+void write_pts(std::ostream& out, const PointModel& model, const std::string& key);
+
+// x y z nx ny nz red green blue, in the model's order.
+enum class PlyFormat { ascii, binary_little_endian };
+void write_ply(std::ostream& out, const PointModel& model, PlyFormat format);
+
+}  // namespace pointsample
