@@ -260,6 +260,8 @@ Trace read_trace(LineReader& lines) {
 
     std::vector<std::string_view> fields;
     while (lines.next(line)) {
+        trace.is_cut = !lines.has_line_end();
+        if (trace.is_cut) break;
         split(line, fields);
         if (fields.size() != header.fields) {
             lines.fail("found " + std::to_string(fields.size()) + " fields, expected " + std::to_string(header.fields));

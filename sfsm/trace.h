@@ -37,6 +37,7 @@ struct Trace {
     std::map<std::string, std::string> settings;
     std::vector<TraceRow> rows;
     std::string name = {};  // of the file it was read from, for messages
+    bool is_cut = false;    // the file ended within a row, which is left out
 };
 
 // A forecast's steps are in the last two columns, steps parted by blanks and their numbers by colons, in the order of
@@ -45,8 +46,9 @@ struct Trace {
 void write_trace_header(std::ostream& out, const std::map<std::string, std::string>& settings);
 void write_trace_row(std::ostream& out, const TraceRow& row);
 
-// Columns are found by name, unknown ones are skipped. Throws std::runtime_error naming `name`, the line and what was
-// expected there; the trace keeps `name`.
+// Columns are found by name, unknown ones are skipped. A last line without a line end is left out: of a number that is
+// cut short nothing tells. Throws std::runtime_error naming `name`, the line and what was expected there; the trace
+// keeps `name`.
 Trace read_trace(std::istream& in, const std::string& name);
 Trace read_trace(LineReader& lines);  // from its first line on
 

@@ -58,7 +58,6 @@ private:
     void take_present(double told_ms);
     void take_sample(double told_ms);
     void take_clock(double clock_ms);
-    void leave_out_cut_line();
     void append_notes();
 
     double number(Column column) const;
@@ -159,7 +158,7 @@ void CsvReader::take_line(std::string_view line) {
     const bool is_row = result == RowSplitter::Result::good && told_number(row_->text(Column::frame_time));
     if (!is_row && begins_again(line)) return;
     const bool is_cut = !lines_.has_line_end() && (result == RowSplitter::Result::too_short || !row_->is_closed());
-    if (is_cut) return leave_out_cut_line();
+    if (is_cut) return collected_.notes.push_back(cut_line_note(lines_));
     if (result == RowSplitter::Result::too_short) {
         lines_.fail("found " + std::to_string(row_->fields()) + " fields, expected " + std::to_string(row_->needed()) +
                     " or more");
@@ -224,10 +223,6 @@ void CsvReader::take_clock(double clock_ms) {
     clock_ms_ = clock_ms;
 }
 
-void CsvReader::leave_out_cut_line() {
-    collected_.notes.push_back("line " + std::to_string(lines_.number()) + ", the last, is cut short: left out");
-}
-
 void CsvReader::append_notes() {
     if (repeated_headers_.count == 0) return;
     collected_.notes.push_back(
@@ -274,6 +269,10 @@ void CsvReader::fail_without_header() const {
 }
 
 }  // namespace
+
+std::string cut_line_note(const LineReader& lines) {
+    return "line " + std::to_string(lines.number()) + ", the last, is cut short: left out";
+}
 
 Collected read_csv_recording(LineReader& lines) {
     return CsvReader(lines).read();

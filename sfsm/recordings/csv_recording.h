@@ -1,6 +1,8 @@
 // Recordings that are tables: every format of formats.h.
 #pragma once
 
+#include <string>
+
 #include "sfsm/recordings/stream_frames.h"
 
 namespace sfsm {
@@ -9,5 +11,8 @@ class LineReader;
 
 // From the first line on. Throws std::runtime_error as read_recording says.
 Collected read_csv_recording(LineReader& lines);
+
+// The note on a last line that has no line end.
+std::string cut_line_note(const LineReader& lines);
 
 }  // namespace sfsm

@@ -51,6 +51,9 @@ Recording our_recording(LineReader& lines) {
     Recording recording;
     recording.format = "trace";
     recording.trace = read_trace(lines);
+    if (recording.trace.is_cut) recording.notes.push_back(cut_line_note(lines));
+    if (recording.trace.rows.empty())
+        lines.fail("found no whole row behind the header of a trace, expected at least one");
     Stream& stream = recording.streams.emplace_back();
     stream.frames = static_cast<std::int64_t>(recording.trace.rows.size());
     for (const TraceRow& row : recording.trace.rows) {

@@ -262,6 +262,12 @@ TEST(Formats, OurOwnTraces) {
         EXPECT_NEAR(recording.streams.at(0).seconds, 0.08, 1e-12);
     }
     EXPECT_TRUE(contains(refusal(out.str() + "1,2\n"), "r.csv:7: found 2 fields, expected 16"));
+    const Recording cut = read(out.str().substr(0, out.str().size() - 1));
+    EXPECT_EQ(cut.trace.rows.size(), 3u);
+    EXPECT_TRUE(has_note(cut, "line 6, the last, is cut short: left out"));
+    const std::string without_rows = out.str().substr(0, out.str().find("\n5,") + 1);
+    EXPECT_TRUE(contains(refusal(without_rows), "r.csv:2: found no whole row behind the header of a trace"));
+    EXPECT_TRUE(contains(refusal(without_rows + "5,16"), "r.csv:3: found no whole row behind the header of a trace"));
     EXPECT_TRUE(contains(refusal(out.str(), {"a.exe"}), "expected none: trace does not tell them"));
 }
 

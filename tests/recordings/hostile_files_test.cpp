@@ -45,7 +45,8 @@ TEST(HostileFiles, CutAnywhereTheyReadAsAPrefixOrAreRefused) {
                 ASSERT_LE(cut.trace.rows.size(), whole.trace.rows.size());
                 for (std::size_t i = 0; i < cut.trace.rows.size(); ++i) {
                     const TraceRow &a = cut.trace.rows[i], &b = whole.trace.rows[i];
-                    ASSERT_TRUE(same(a.frame_ms, b.frame_ms) && same(a.cpu_ms, b.cpu_ms) && same(a.gpu_ms, b.gpu_ms))
+                    ASSERT_TRUE(same(a.frame_ms, b.frame_ms) && same(a.cpu_ms, b.cpu_ms) && same(a.gpu_ms, b.gpu_ms) &&
+                                a.motion == b.motion && a.splats == b.splats)
                         << "frame " << i << " of the first " << size << " bytes of\n"
                         << text;
                 }

@@ -170,7 +170,7 @@ TEST(Trace, BadTextIsNamedByFileAndLine) {
         {h + "1,2,3\n", "t.csv:2:", "3 fields, expected 13"},
         {h + ok + "\n", "t.csv:3:", "1 fields"},
         {h + ok + "# law=paper\n", "t.csv:3:", "1 fields"},
-        {h + ok + "1,16.6,20,3,nan,2,100,1.5,10,0,30", "t.csv:3:", "11 fields"},
+        {h + ok + "1,16.6,20,3,nan,2,100,1.5,10,0,30\n", "t.csv:3:", "11 fields"},
         {h + ok + ok, "t.csv:3:", "found frame 0, expected one after 0"},
         {h + "-1,16.6,20,3,nan,2,100,1.5,10,0,300,4,200\n", "t.csv:2:", "frame is '-1'"},
         {h + "0.5,16.6,20,3,nan,2,100,1.5,10,0,300,4,200\n", "t.csv:2:", "frame is '0.5'"},
@@ -194,6 +194,18 @@ TEST(Trace, BadTextIsNamedByFileAndLine) {
             EXPECT_NE(message.find(bad.said), std::string::npos) << message;
             EXPECT_EQ(message.find('\n'), std::string::npos) << message;
         }
+    }
+}
+
+// Cut within its last number, a row has all its fields: only the line end tells that it is whole.
+TEST(Trace, ALastRowWithoutALineEndIsLeftOut) {
+    const std::string text = std::string(header) + good_row + "1,16.6,20,3,nan,2,100,1.5,10,0,300,4,200\n";
+    EXPECT_EQ(read(text).rows.size(), 2u);
+    EXPECT_FALSE(read(text).is_cut);
+    for (const std::size_t missing : {1, 2, 20}) {
+        const Trace cut = read(text.substr(0, text.size() - missing));
+        EXPECT_EQ(cut.rows.size(), 1u) << missing;
+        EXPECT_TRUE(cut.is_cut) << missing;
     }
 }
 
