@@ -1,6 +1,5 @@
 #include "apps/contestants.h"
 
-#include <algorithm>
 #include <memory>
 #include <sstream>
 
@@ -32,21 +31,32 @@ std::vector<sim::Contestant> contestants() {
 }  // namespace
 
 std::vector<sim::Contestant> chosen_laws(const std::string& option, const std::string& list) {
-    const std::vector<sim::Contestant> known = contestants();
-    if (list == "all") return known;
+    if (list == "all") return contestants();
     std::vector<sim::Contestant> chosen;
     std::istringstream names(list);
     for (std::string name; std::getline(names, name, ',');) {
-        const auto found = std::find_if(known.begin(), known.end(), [&](const auto& law) { return law.name == name; });
-        if (found == known.end()) {
-            std::string expected = "all or some of:";
-            for (const sim::Contestant& law : known) expected += " " + law.name;
-            throw wrong_argument(option, "'" + name + "'", expected);
-        }
-        chosen.push_back(*found);
+        const std::optional<sim::Contestant> law = find_law(name);
+        if (!law) throw wrong_argument(option, "'" + name + "'", "all or some of: " + law_list());
+        chosen.push_back(*law);
     }
     if (chosen.empty()) throw wrong_argument(option, "''", "all or names with commas between");
     return chosen;
+}
+
+std::optional<sim::Contestant> find_law(const std::string& name) {
+    for (const sim::Contestant& law : contestants())
+        if (law.name == name) return law;
+    return std::nullopt;
+}
+
+bool looks_ahead(const sim::Contestant& law) {
+    return law.name == sim::oracle_name;
+}
+
+std::string law_list() {
+    std::string list;
+    for (const sim::Contestant& law : contestants()) list += (list.empty() ? "" : " ") + law.name;
+    return list;
 }
 
 }  // namespace apps

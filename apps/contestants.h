@@ -1,6 +1,7 @@
 // The laws a user can name: the clairvoyant, ours, and those that ship elsewhere.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,5 +12,13 @@ namespace apps {
 // Those of `list`: names with commas between, or "all". Throws std::invalid_argument that names `option` and the laws
 // there are.
 std::vector<sfsm::simulate::Contestant> chosen_laws(const std::string& option, const std::string& list);
+
+// The one of that name, if there is one.
+std::optional<sfsm::simulate::Contestant> find_law(const std::string& name);
+
+// Whether it decides by what is still to come: it needs a course, and can't decide in an open loop.
+bool looks_ahead(const sfsm::simulate::Contestant& law);
+
+std::string law_list();  // of all, blanks between
 
 }  // namespace apps

@@ -15,7 +15,6 @@
 #include "apps/rerun_text.h"
 #include "apps/session.h"
 #include "apps/simulate.h"
-#include "sfsm/controller.h"
 #include "sfsm/number_text.h"
 #include "sfsm/report/report.h"
 #include "sfsm/simulate/recorded.h"
@@ -40,7 +39,8 @@ void verify(const std::string& path) {
                                  ", decisions that were forced, expected state=auto: nothing to verify");
     }
     required(trace, path, "delay");
-    const auto law = sfsm::make_controller(required(trace, path, "law"));
+    required(trace, path, "law");
+    const auto law = law_of(trace, false).make({});
     const std::vector<sfsm::Replayed> replayed = sfsm::replay(*law, trace.rows, sfsm::trace_delay(trace));
     const auto difference = sfsm::first_difference(trace.rows, replayed);
     if (difference) {
@@ -56,7 +56,7 @@ void fit(const ReplayOptions& options) {
     std::optional<OutputFile> json;
     if (!options.json.empty()) json.emplace(options.json);
     const sfsm::Trace trace = read_own_trace(options.trace);
-    const sfsm::simulate::CostFit fitted = sfsm::simulate::fit_costs(trace.rows);
+    const auto fitted = made_of(options.trace, [&] { return sfsm::simulate::fit_costs(trace.rows); });
     if (json) {
         json->stream() << fit_json(fitted).dump(2) << '\n';
         json->commit();

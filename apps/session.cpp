@@ -66,9 +66,14 @@ void set_targets(sfsm::Recording& recording, const std::string& asked) {
     if (!asked.empty() || !settings.contains("target_ms")) settings["target_ms"] = targets.text();
 }
 
-std::string law_of(const sfsm::Trace& trace) {
-    const auto found = trace.settings.find("law");
-    return found != trace.settings.end() ? found->second : std::string(sfsm::law_names().front());
+// Those asked for; else the trace's, or of a recording that has none the default.
+std::vector<sim::Contestant> laws_for(const ReplayOptions& options, const sfsm::Recording& recording) {
+    const bool is_told = recording.has_work() && recording.trace.settings.contains("law");
+    if (options.laws.empty() && is_told) return {law_of(recording.trace, !options.open_loop)};
+    std::vector<sim::Contestant> laws =
+        chosen_laws("--law", options.laws.empty() ? std::string(sfsm::law_names().front()) : options.laws);
+    if (options.open_loop) std::erase_if(laws, looks_ahead);
+    return laws;
 }
 
 }  // namespace
@@ -78,11 +83,13 @@ Session open_session(const ReplayOptions& options) {
     session.recording = read(options.trace, options.process);
     const bool has_work = session.recording.has_work();
     session.delay = options.delay.value_or(has_work ? sfsm::trace_delay(session.recording.trace) : gpu_delay);
-    session.laws = chosen_laws("--law", options.laws.empty() ? law_of(session.recording.trace) : options.laws);
+    session.laws = laws_for(options, session.recording);
     set_targets(session.recording, options.target_ms);
-    if (!options.open_loop)
-        session.course =
-            sim::make_course(sim::recorded_scenario(session.recording.trace.rows, {session.delay, has_work}));
+    if (!options.open_loop) {
+        session.course = made_of(options.trace, [&] {
+            return sim::make_course(sim::recorded_scenario(session.recording.trace.rows, {session.delay, has_work}));
+        });
+    }
     return session;
 }
 
@@ -91,6 +98,16 @@ sfsm::Trace read_own_trace(const std::string& path) {
     if (!recording.has_work())
         throw std::runtime_error(path + ": found a recording of " + recording.format + ", expected a trace of ours");
     return std::move(recording.trace);
+}
+
+sim::Contestant law_of(const sfsm::Trace& trace, bool may_look_ahead) {
+    const std::string& name = trace.settings.at("law");
+    const std::optional<sim::Contestant> law = find_law(name);
+    if (!law) throw std::runtime_error(trace.name + ": found setting law=" + name + ", expected one of: " + law_list());
+    if (!may_look_ahead && looks_ahead(*law))
+        throw std::runtime_error(trace.name + ": found setting law=" + name +
+                                 ", which knows what is to come, expected one that decides without");
+    return *law;
 }
 
 Rerun recorded_run(const Session& session) {

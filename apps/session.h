@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <ostream>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,6 +28,22 @@ Session open_session(const ReplayOptions& options);
 
 // A trace of ours, or throws std::runtime_error saying what was found.
 sfsm::Trace read_own_trace(const std::string& path);
+
+// The law that a trace says has decided, or throws std::runtime_error that names the trace: it says none that there is,
+// or one that looks ahead where it must not.
+sfsm::simulate::Contestant law_of(const sfsm::Trace& trace, bool may_look_ahead);
+
+// What is made of a file's rows, by functions that don't know whose they are: their errors begin with its path.
+template <class Make>
+auto made_of(const std::string& path, const Make& make) {
+    try {
+        return make();
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(path + ": " + error.what());
+    } catch (const std::invalid_argument& error) {
+        throw std::runtime_error(path + ": " + error.what());
+    }
+}
 
 // The recorded run as it was, beside which the laws' are shown.
 Rerun recorded_run(const Session& session);

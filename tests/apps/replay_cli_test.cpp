@@ -104,13 +104,17 @@ TEST_F(ReplayProgram, BadFilesAreOneLineAndCode1) {
     std::ofstream(in_folder("empty.csv"));
     sfsm::Trace unmeasured = recorded();
     for (sfsm::TraceRow& row : unmeasured.rows) row.frame_ms = NAN;
+    sfsm::Trace too_slow = recorded();
+    for (sfsm::TraceRow& row : too_slow.rows) row.target_ms = 1e7;
     const std::string trace = save(recorded()), folder = fs::path(trace).parent_path();
     const std::pair<std::string, const char*> bads[] = {
         {in_folder("missing.csv"), "missing.csv: No such file"},
         {in_folder("damaged.csv"), "damaged.csv:2: found"},
         {in_folder("empty.csv"), "empty.csv"},
         {folder, "expected"},
-        {save(unmeasured, "unmeasured.csv"), "expected"},
+        {save(unmeasured, "unmeasured.csv"), "unmeasured.csv: found no time in 600 frames"},
+        {save(unmeasured, "unmeasured.csv") + " --fit", "unmeasured.csv: found 0 frames with a time"},
+        {save(too_slow, "too_slow.csv"), "too_slow.csv: frame 0: found target 1e+07 ms"},
         {capture() + " --process nobody.exe", "game.exe"},
         {capture() + " --verify", "expected a trace of ours"},
         {capture() + " --fit", "expected a trace of ours"},
@@ -168,9 +172,43 @@ TEST_F(ReplayProgram, NamesTheTraceWhoseDelayIsNone) {
     }
 }
 
+// Of the laws in a list "all" is what a user may say, but no law that a run had.
+TEST_F(ReplayProgram, NamesTheTraceWhoseLawIsNone) {
+    for (const char* law : {"papier", "all", "paper,predictive", ""}) {
+        sfsm::Trace trace = recorded();
+        trace.settings["law"] = law;
+        const std::string saved = save(trace);
+        for (const std::string option : {"", " --verify", " --open-loop"}) {
+            const Outcome outcome = replay(saved + option);
+            EXPECT_EQ(outcome.code, 1) << law << option;
+            EXPECT_TRUE(
+                outcome.err.starts_with("replay: " + saved + ": found setting law=" + law + ", expected one of: "))
+                << outcome.err;
+            EXPECT_TRUE(tests::one_line(outcome.err)) << outcome.err;
+        }
+        EXPECT_EQ(replay(saved + " --law paper").code, 0);
+    }
+}
+
+TEST_F(ReplayProgram, TheClairvoyantDecidesInClosedLoopsAlone) {
+    const std::string trace = save(recorded());
+    ASSERT_EQ(replay(trace + " --law oracle --csv " + in_folder("oracle.csv")).code, 0);
+    EXPECT_EQ(replay(in_folder("oracle.csv")).code, 0);
+    for (const std::string option : {" --verify", " --open-loop"}) {
+        const Outcome outcome = replay(in_folder("oracle.csv") + option);
+        EXPECT_EQ(outcome.code, 1);
+        EXPECT_NE(outcome.err.find("oracle.csv: found setting law=oracle, which knows what is to come"),
+                  std::string::npos)
+            << outcome.err;
+    }
+    const Outcome others = replay(trace + " --open-loop --law all --json -");
+    ASSERT_EQ(others.code, 0) << others.err;
+    for (const json& run : json::parse(others.out).at("runs")) EXPECT_NE(run.at("law"), "oracle");
+}
+
 TEST_F(ReplayProgram, WritesATraceThatVerifiesAgain) {
     const std::string trace = save(recorded());
-    for (const std::string loop : {"", " --open-loop"}) {
+    for (const std::string loop : {"", " --open-loop", " --law valve", " --law robust-mpc --open-loop"}) {
         ASSERT_EQ(replay(trace + loop + " --target-ms 20,9@300 --delay 3 --csv " + in_folder("out.csv")).code, 0);
         const Outcome again = replay(in_folder("out.csv") + " --verify");
         EXPECT_EQ(again.code, 0) << again.err;
