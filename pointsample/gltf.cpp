@@ -1,9 +1,5 @@
 #include "pointsample/gltf.h"
 
-#include <new>
-#include <stdexcept>
-#include <string>
-
 #include "pointsample/gltf_file.h"
 
 namespace pointsample {
@@ -20,23 +16,10 @@ motion::Character load(const std::filesystem::path& path) {
     return character;
 }
 
-// Names out of the file may hold anything.
-std::string one_line(std::string text) {
-    for (char& c : text)
-        if (static_cast<unsigned char>(c) < ' ') c = ' ';
-    return text;
-}
-
 }  // namespace
 
 motion::Character load_gltf(const std::filesystem::path& path) {
-    try {
-        return load(path);
-    } catch (const std::bad_alloc&) {
-        throw std::runtime_error(path.string() + ": found more than fits into memory; expected a character");
-    } catch (const std::exception& error) {
-        throw std::runtime_error(one_line(path.string() + ": " + error.what()));
-    }
+    return with_name(path, [&] { return load(path); });
 }
 
 }  // namespace pointsample

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <stdexcept>
 #include <string_view>
 
@@ -13,39 +12,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t most_file_bytes = 0xffffffffu;         // lengths in GLB are 32 bits
+constexpr std::uint64_t most_file_bytes = 0xffffffffu;          // lengths in GLB are 32 bits
 constexpr std::size_t most_image_bytes = std::size_t{1} << 30;  // encoded, kept until the textures are decoded
-
-// What is there in place of a file. Only regular files are opened: a pipe may block, and /dev/zero has no end.
-std::string kind_of(const fs::path& path, const std::error_code& error, fs::file_type type) {
-    if (path.empty()) return "an empty name";
-    switch (type) {
-        case fs::file_type::not_found:
-            return "no such file";
-        case fs::file_type::directory:
-            return "a directory";
-        case fs::file_type::character:
-        case fs::file_type::block:
-            return "a device";
-        case fs::file_type::fifo:
-            return "a pipe";
-        default:
-            return error ? "a file that can't be read (" + error.message() + ")" : "no file of bytes";
-    }
-}
-
-std::vector<unsigned char> read_file(const fs::path& path) {
-    std::error_code error;
-    const fs::file_type type = fs::status(path, error).type();
-    if (type != fs::file_type::regular) fail(kind_of(path, error, type), "a readable glTF or GLB file");
-    const std::uintmax_t size = fs::file_size(path, error);
-    if (error || size > most_file_bytes) fail(std::to_string(size) + " bytes", "a file below 4 GiB");
-    std::vector<unsigned char> bytes(static_cast<std::size_t>(size));
-    std::ifstream stream(path, std::ios::binary);
-    if (!stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size())))
-        fail("a file that can't be read", "a readable glTF or GLB file");
-    return bytes;
-}
+constexpr const char* readable = "a readable glTF or GLB file";
 
 // tinygltf also looks in the working directory (as ./name); only the model's own folder counts, whose path is absolute.
 // Pipes and devices would block.
@@ -60,7 +29,7 @@ std::string keep_path(const std::string& path, void*) {
 
 bool read_whole_file(std::vector<unsigned char>* out, std::string* error, const std::string& path, void*) {
     try {
-        *out = read_file(path);
+        *out = read_file(path, readable, most_file_bytes);
         return true;
     } catch (const std::exception& exception) {
         *error = exception.what();
@@ -138,14 +107,10 @@ void check_extensions(const tinygltf::Model& model) {
 
 }  // namespace
 
-void fail(const std::string& found, const std::string& expected) {
-    throw std::runtime_error("found " + found + "; expected " + expected);
-}
-
 GltfFile open_gltf(const fs::path& path) {
     GltfFile file;
     {
-        const std::vector<unsigned char> bytes = read_file(path);
+        const std::vector<unsigned char> bytes = read_file(path, readable, most_file_bytes);
         check_gltf_json(json_of(bytes));
         parse(bytes, path, file.model);
     }

@@ -11,11 +11,9 @@
 #include <vector>
 
 #include "motion/character.h"
+#include "pointsample/input_file.h"
 
 namespace pointsample {
-
-// Throws std::runtime_error "found `found`; expected `expected`". load_gltf puts the file's name before it.
-[[noreturn]] void fail(const std::string& found, const std::string& expected);
 
 // How much a file may unfold to, so that a small file cannot claim all memory by naming one accessor a thousand times:
 // vertices, indices, keys and the like, a million and one for every byte of its buffers.

@@ -8,6 +8,7 @@
 
 #include "motion/pose.h"
 #include "pointsample/gltf_file.h"
+#include "pointsample/normals.h"
 #include "pointsample/srgb.h"
 
 namespace pointsample {
@@ -165,10 +166,6 @@ glm::vec3 vector_at(const Accessor& accessor, std::size_t element) {
     return {accessor.finite(element, 0), accessor.finite(element, 1), accessor.finite(element, 2)};
 }
 
-std::uint8_t unit_byte(float value) {
-    return static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(std::isfinite(value) ? value : 0.0f, 0.0f, 1.0f)));
-}
-
 // Adds one primitive, hung on one attachment, to the mesh.
 class PrimitiveWriter {
 public:
@@ -218,26 +215,17 @@ private:
         return out;
     }
 
-    // Missing or degenerate normals are the sum of the normals of the triangles around, by area.
+    // Missing or degenerate normals are the surface's.
     void write_normals() {
-        std::vector<glm::vec3> sums(used_.size(), glm::vec3(0.0f));
-        for (std::size_t i = 0; i < triangles_.size(); i += 3) {
-            const auto at = [&](std::size_t corner) { return mesh_.positions[first_ + triangles_[i + corner]]; };
-            const glm::vec3 normal = glm::cross(at(1) - at(0), at(2) - at(0));
-            for (std::size_t corner = 0; corner < 3; ++corner) sums[triangles_[i + corner]] += normal;
-        }
         const auto given = optional_accessor(file_, primitive_.attributes, "NORMAL", 3, vertex_count_);
-        for (std::size_t i = 0; i < used_.size(); ++i) {
-            glm::vec3 normal = sums[i];
-            if (given) normal = {given->number(used_[i], 0), given->number(used_[i], 1), given->number(used_[i], 2)};
-            if (!is_direction(normal)) normal = sums[i];
-            mesh_.normals.push_back(is_direction(normal) ? normal / length_of(normal) : glm::vec3(0, 1, 0));
+        for (const std::uint32_t vertex : used_) {
+            mesh_.normals.push_back(
+                given ? glm::vec3(given->number(vertex, 0), given->number(vertex, 1), given->number(vertex, 2))
+                      : glm::vec3(0.0f));
         }
+        complete_normals(std::span(mesh_.positions).subspan(first_), triangles_, {},
+                         std::span(mesh_.normals).subspan(first_));
     }
-
-    // In double: the squares of a tiny triangle's normal vanish in float.
-    static float length_of(const glm::vec3& v) { return static_cast<float>(glm::length(glm::dvec3(v))); }
-    static bool is_direction(const glm::vec3& v) { return length_of(v) > 0.0f && std::isfinite(length_of(v)); }
 
     void write_looks(const Look& look) {
         const std::string uv_name = "TEXCOORD_" + std::to_string(look.uv_set);

@@ -37,4 +37,8 @@ std::uint8_t srgb_of_linear(float linear) {
     return static_cast<std::uint8_t>(std::upper_bound(border.begin(), border.end(), linear) - border.begin());
 }
 
+std::uint8_t unit_byte(float value) {
+    return value > 0.0f ? static_cast<std::uint8_t>(std::lround(255.0f * std::min(value, 1.0f))) : std::uint8_t{0};
+}
+
 }  // namespace pointsample

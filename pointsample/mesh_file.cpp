@@ -1,0 +1,53 @@
+#include "pointsample/mesh_file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+#include <utility>
+
+#include "pointsample/gltf.h"
+#include "pointsample/input_file.h"
+#include "pointsample/mesh_readers.h"
+
+namespace pointsample {
+namespace {
+
+// What files without a skeleton don't hold: all hangs on one node.
+motion::Character statue_of(motion::Mesh mesh, const std::string& name) {
+    if (mesh.indices.empty()) fail("no triangles", "at least one face of three corners");
+    const std::size_t count = mesh.vertex_count();
+    mesh.uvs.resize(count, glm::vec2(0.0f));
+    mesh.colors.resize(count, glm::u8vec4(255));
+    mesh.tints.resize(count, motion::Tint::none);
+    mesh.texture_ids.resize(count, motion::no_texture);
+    mesh.joints.resize(count, glm::u16vec4(0));
+    mesh.weights.resize(count, glm::vec4(1, 0, 0, 0));
+    mesh.double_sided = true;  // neither format says; a closed surface looks the same
+    motion::Character character;
+    character.name = name;
+    character.mesh = std::move(mesh);
+    character.skeleton.nodes.push_back({name, -1, {}, glm::mat4(1.0f)});
+    character.skeleton.palette.push_back({0, glm::mat4(1.0f)});
+    return character;
+}
+
+motion::Character load_statue(const std::filesystem::path& path, motion::Mesh (*read)(const std::filesystem::path&)) {
+    return with_name(path, [&] { return statue_of(read(path), path.stem().string()); });
+}
+
+}  // namespace
+
+motion::Character load_mesh(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (extension == ".glb" || extension == ".gltf") return load_gltf(path);
+    if (extension == ".obj") return load_statue(path, read_obj);
+    if (extension == ".ply") return load_statue(path, read_ply);
+    return with_name(path, [&]() -> motion::Character {
+        fail(extension.empty() ? "a name without extension" : "a name that ends in " + in_quotes(extension),
+             ".glb, .gltf, .obj or .ply");
+    });
+}
+
+}  // namespace pointsample
