@@ -25,15 +25,23 @@ double changes_per_1000(const std::vector<sfsm::TraceRow>& rows) {
     return 1000.0 * static_cast<double>(changes) / static_cast<double>(rows.size() - 1);
 }
 
+// A miss that no frame could have is none that was avoided: NaN where nothing was judged, or less than a second.
+sim::Metrics known(sim::Metrics metrics) {
+    constexpr double second_ms = 1000;
+    if (metrics.judged_ms < second_ms) metrics.worst_second = unknown;
+    if (metrics.judged_ms > 0) return metrics;
+    metrics.over_target = metrics.hitch_ms_per_s = metrics.overshoot_pct = unknown;
+    return metrics;
+}
+
 // The picture kept, in shares of what a clairvoyant keeps; and what is felt of the misses.
 void add_metrics(std::vector<sfsm::Score>& scores, const Rerun& rerun) {
     using Better = sfsm::Score::Better;
-    const bool closed = rerun.metrics.has_value();
-    const sim::Metrics metrics = rerun.metrics.value_or(sim::Metrics{});
-    const auto known = [=](double value) { return closed ? value : unknown; };
-    scores.push_back({"detail of the best", "%", known(100 * metrics.quality), 1, Better::more});
-    scores.push_back({"worst second over by 5 %", "%", known(100 * metrics.worst_second), 1, Better::less});
-    scores.push_back({"late", "ms/s", known(metrics.hitch_ms_per_s), 1, Better::less});
+    const sim::Metrics metrics = known(rerun.metrics.value_or(sim::Metrics{}));
+    const double quality = rerun.metrics ? 100 * metrics.quality : unknown;
+    scores.push_back({"detail of the best", "%", quality, 1, Better::more});
+    scores.push_back({"worst second over by 5 %", "%", 100 * metrics.worst_second, 1, Better::less});
+    scores.push_back({"late", "ms/s", metrics.hitch_ms_per_s, 1, Better::less});
     scores.push_back({"changes", "/1000", changes_per_1000(rerun.rows), 0, Better::less});
 }
 
@@ -120,7 +128,7 @@ Json rerun_json(const Rerun& rerun) {
     json["over_5pct"] = number(summary.over_5pct);
     json["state_frames"] = summary.state_frames;
     json["changes_per_1000"] = number(changes_per_1000(rerun.rows));
-    if (rerun.metrics) add_metrics(json, *rerun.metrics);
+    if (rerun.metrics) add_metrics(json, known(*rerun.metrics));
     return json;
 }
 
@@ -139,9 +147,9 @@ void write_fit(std::ostream& out, const sim::CostFit& fit) {
     for (const auto& [name, ms, sigma] : prices)
         out << "  " << std::left << std::setw(14) << name << std::right << std::setw(10) << us_per_ms * ms << " us +- "
             << us_per_ms * sigma << '\n';
-    out << "R2 " << fit.r2 << "; time over model";
+    out << "R2 " << fit.r2 << "; percentiles of time / model - 1";
     for (std::size_t i = 0; i < fit.percents.size(); ++i)
-        out << (i == 0 ? ": " : ", ") << fit.percents[i] << "th percentile " << percent(fit.residual[i]);
+        out << (i == 0 ? ": " : ", ") << fit.percents[i] << " %: " << percent(fit.residual[i]);
     out << '\n';
 }
 

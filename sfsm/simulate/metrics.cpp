@@ -52,7 +52,7 @@ bool is_over(const Outcome& outcome) {
 
 void measure_shares(Metrics& metrics, std::span<const Outcome> judged) {
     if (judged.empty()) return;
-    double excess_ms = 0, total_ms = 0;
+    double excess_ms = 0;
     for (const Outcome& outcome : judged) {
         const double off = off_target(outcome);
         metrics.over_target += off > 0 ? 1 : 0;
@@ -61,14 +61,14 @@ void measure_shares(Metrics& metrics, std::span<const Outcome> judged) {
         metrics.within_10pct += std::abs(off) <= 0.10 ? 1 : 0;
         metrics.control_rate += std::max(0.0, 1 - std::abs(off));
         excess_ms += std::max(0.0, outcome.ms - outcome.target_ms);
-        total_ms += outcome.ms;
+        metrics.judged_ms += outcome.ms;
     }
     const auto frames = static_cast<double>(judged.size());
     for (double* share : {&metrics.over_target, &metrics.over_5pct, &metrics.within_5pct, &metrics.within_10pct,
                           &metrics.control_rate}) {
         *share /= frames;
     }
-    metrics.hitch_ms_per_s = 1000 * excess_ms / total_ms;
+    metrics.hitch_ms_per_s = 1000 * excess_ms / metrics.judged_ms;
 }
 
 // For each frame the shortest stretch that ends with it and lasts a second; none that is shorter.

@@ -12,12 +12,14 @@ namespace sfsm::simulate {
 // Judged are the frames from statistics_from on that are not interrupted and in which t can be met (the best decision
 // costs no more). Without any: zeros.
 struct Metrics {
+    double judged_ms = 0;       // sum of T of judged frames; 0: there are none, and what follows says nothing
     double over_target = 0;     // share of judged frames with T > t
     double over_5pct = 0;       // ... T > 1.05 t
     double within_5pct = 0;     // ... |T - t| <= 5 % of t
     double within_10pct = 0;    // ... |T - t| <= 10 % of t
     double control_rate = 0;    // mean over judged frames of max(0, 1 - |T - t| / t)
-    double worst_second = 0;    // largest share of frames with T > 1.05 t in a stretch of judged frames that lasts 1 s
+    double worst_second = 0;    // largest share of frames with T > 1.05 t in a stretch of judged frames that lasts 1 s;
+                                // 0 where judged_ms is less
     double hitch_ms_per_s = 0;  // sum of max(0, T - t) over the sum of T, of judged frames [ms/s]
 
     // Sum of d over the sum of the best decisions' d, of the frames from statistics_from on that are not interrupted,

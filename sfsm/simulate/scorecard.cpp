@@ -44,10 +44,10 @@ std::optional<double> median_of(std::span<const Metrics> runs, std::optional<dou
 
 Metrics median_of(std::span<const Metrics> runs) {
     Metrics middle;
-    for (const auto figure : {&Metrics::over_target, &Metrics::over_5pct, &Metrics::within_5pct, &Metrics::within_10pct,
-                              &Metrics::control_rate, &Metrics::worst_second, &Metrics::hitch_ms_per_s,
-                              &Metrics::quality, &Metrics::overshoot_pct, &Metrics::reversals_per_1000,
-                              &Metrics::variation_per_1000, &Metrics::changes_per_1000}) {
+    for (const auto figure : {&Metrics::judged_ms, &Metrics::over_target, &Metrics::over_5pct, &Metrics::within_5pct,
+                              &Metrics::within_10pct, &Metrics::control_rate, &Metrics::worst_second,
+                              &Metrics::hitch_ms_per_s, &Metrics::quality, &Metrics::overshoot_pct,
+                              &Metrics::reversals_per_1000, &Metrics::variation_per_1000, &Metrics::changes_per_1000}) {
         middle.*figure = median_of(runs, figure);
     }
     for (const auto figure : {&Metrics::settle_down, &Metrics::settle_up, &Metrics::cost_settle_down,

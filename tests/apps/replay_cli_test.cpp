@@ -266,6 +266,19 @@ TEST_F(ReplayProgram, HoldsACaptureAtTheTarget) {
     EXPECT_GT(figures.at("runs").at(0).at("within_5pct"), 0.9);
 }
 
+// No law can miss a target that is out of reach for all: that is no zero to be proud of.
+TEST_F(ReplayProgram, WhatNoFrameIsJudgedByIsNoFigure) {
+    const json unmet = json::parse(replay(capture() + " --target-ms 0.01 --json -").out).at("runs").at(0);
+    EXPECT_EQ(unmet.at("over_5pct"), 1);
+    for (const char* name : {"over_target", "worst_second", "hitch_ms_per_s", "overshoot_pct"})
+        EXPECT_TRUE(unmet.at(name).is_null()) << name;
+    const json met = json::parse(replay(capture() + " --target-ms 12 --json -").out).at("runs").at(0);
+    for (const char* name : {"over_target", "worst_second", "hitch_ms_per_s", "overshoot_pct"})
+        EXPECT_TRUE(met.at(name).is_number()) << name;
+    const Outcome table = replay(capture() + " --target-ms 0.01");
+    EXPECT_NE(table.out.find("\nlate [ms/s]                          -           -\n"), std::string::npos) << table.out;
+}
+
 TEST_F(ReplayProgram, FitsWhatWorkCost) {
     const Outcome outcome = replay(save(recorded()) + " --fit --json " + in_folder("fit.json"));
     ASSERT_EQ(outcome.code, 0) << outcome.err;

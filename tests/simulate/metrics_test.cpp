@@ -57,6 +57,7 @@ TEST(Metrics, SharesAndRatesOfTenFrames) {
     EXPECT_NEAR(m.control_rate, (3 + 0.96 + 0.94 + 0.96 + 0.94 + 0.85 + 0.85 + 0) / 10, 1e-12);
     EXPECT_NEAR(m.hitch_ms_per_s, 1000 * (0.4 + 0.6 + 1.5 + 15) / 115, 1e-9);
     EXPECT_NEAR(m.overshoot_pct, 150, 1e-9);
+    EXPECT_NEAR(m.judged_ms, 115, 1e-9);
 }
 
 TEST(Metrics, QualityIsTheSumOfDetailOverTheBest) {
