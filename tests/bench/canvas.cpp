@@ -1,0 +1,190 @@
+#include "tests/bench/canvas.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "pointsample/srgb.h"
+
+namespace bench {
+namespace {
+
+constexpr int samples_per_side = 4;  // of a pixel
+
+glm::vec3 linear(const glm::u8vec4& color) {
+    return {pointsample::linear_of_srgb(color.r), pointsample::linear_of_srgb(color.g),
+            pointsample::linear_of_srgb(color.b)};
+}
+
+// The nearest texel's.
+glm::vec3 texture_color(const motion::Texture& texture, const glm::vec2& uv) {
+    const auto wrapped = [](float at, int size) {
+        return std::min(static_cast<int>((at - std::floor(at)) * static_cast<float>(size)), size - 1);
+    };
+    const std::size_t row = static_cast<std::size_t>(wrapped(uv.y, texture.height));
+    return linear(texture.texels[row * texture.width + wrapped(uv.x, texture.width)]);
+}
+
+}  // namespace
+
+View view_of(const motion::Bounds& box, float azimuth, float elevation, float pixels_per_unit, int margin) {
+    View view{};
+    view.toward = {std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
+                   std::cos(azimuth) * std::cos(elevation)};
+    view.right = {std::cos(azimuth), 0, -std::sin(azimuth)};
+    view.up = glm::cross(view.toward, view.right);
+    view.center = box.center();
+    view.pixels_per_unit = pixels_per_unit;
+    const auto pixels = [&](const glm::vec3& axis) {
+        return static_cast<int>(std::ceil(glm::dot(glm::abs(axis), box.size()) * pixels_per_unit)) + 2 * margin;
+    };
+    view.width = pixels(view.right);
+    view.height = pixels(view.up);
+    return view;
+}
+
+Canvas::Canvas(const View& view, glm::vec3 background)
+    : view_(view),
+      width_(view.width * samples_per_side),
+      height_(view.height * samples_per_side),
+      colors_(static_cast<std::size_t>(width_) * height_, background),
+      depths_(colors_.size(), -std::numeric_limits<float>::infinity()) {}
+
+glm::vec3 Canvas::to_samples(const glm::vec3& position) const {
+    const glm::vec3 from_center = position - view_.center;
+    const float scale = view_.pixels_per_unit * samples_per_side;
+    return {0.5f * static_cast<float>(width_) + scale * glm::dot(from_center, view_.right),
+            0.5f * static_cast<float>(height_) - scale * glm::dot(from_center, view_.up),
+            glm::dot(from_center, view_.toward)};
+}
+
+void Canvas::put(int x, int y, float depth, const glm::vec3& color) {
+    const std::size_t sample = static_cast<std::size_t>(y) * width_ + x;
+    if (depth <= depths_[sample]) return;
+    depths_[sample] = depth;
+    colors_[sample] = color;
+}
+
+// Lambert's law, with the stadium's sun.
+glm::vec3 Canvas::lit(const glm::vec3& color, glm::vec3 normal, bool double_sided) const {
+    static const glm::vec3 sun = glm::normalize(glm::vec3(0.45f, 0.72f, 0.38f));
+    constexpr float surroundings = 0.4f;
+    if (double_sided && glm::dot(normal, view_.toward) < 0) normal = -normal;
+    return color * (surroundings + (1 - surroundings) * std::max(glm::dot(glm::normalize(normal), sun), 0.0f));
+}
+
+void Canvas::draw_mesh(const Subject& subject, std::optional<glm::vec3> flat) {
+    const motion::Mesh& mesh = subject.character.mesh;
+    for (std::size_t triangle = 0; triangle < mesh.triangle_count(); ++triangle) {
+        std::array<std::uint32_t, 3> corners{};
+        std::array<glm::vec3, 3> at, colors;
+        for (std::size_t k = 0; k < 3; ++k) {
+            corners[k] = mesh.indices[3 * triangle + k];
+            at[k] = to_samples(subject.pose.positions[corners[k]]);
+            colors[k] = linear(mesh.colors[corners[k]]) *
+                        linear(subject.palette[static_cast<std::size_t>(mesh.tints[corners[k]])]);
+        }
+        const auto shade = [&](const glm::vec3& shares) {
+            if (flat) return *flat;
+            const auto mixed = [&](const auto& values) {
+                return shares.x * values[corners[0]] + shares.y * values[corners[1]] + shares.z * values[corners[2]];
+            };
+            glm::vec3 color = shares.x * colors[0] + shares.y * colors[1] + shares.z * colors[2];
+            if (const std::uint8_t texture = mesh.texture_ids[corners[0]]; texture != motion::no_texture)
+                color *= texture_color(mesh.textures[texture], mixed(mesh.uvs));
+            return lit(color, mixed(subject.pose.normals), mesh.double_sided);
+        };
+        const auto side = [](const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+            return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+        };
+        const float area = side(at[0], at[1], at[2]);
+        if (!(std::abs(area) > 0)) continue;
+        const glm::vec3 low = glm::min(glm::min(at[0], at[1]), at[2]), high = glm::max(glm::max(at[0], at[1]), at[2]);
+        const int last_x = std::min(static_cast<int>(high.x), width_ - 1);
+        const int last_y = std::min(static_cast<int>(high.y), height_ - 1);
+        for (int y = std::max(static_cast<int>(low.y), 0); y <= last_y; ++y) {
+            for (int x = std::max(static_cast<int>(low.x), 0); x <= last_x; ++x) {
+                const glm::vec3 here(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 0);
+                const glm::vec3 shares =
+                    glm::vec3(side(at[1], at[2], here), side(at[2], at[0], here), side(at[0], at[1], here)) / area;
+                if (shares.x < 0 || shares.y < 0 || shares.z < 0) continue;
+                put(x, y, glm::dot(shares, glm::vec3(at[0].z, at[1].z, at[2].z)), shade(shares));
+            }
+        }
+    }
+}
+
+void Canvas::draw_points(const Subject& subject, const pointsample::PointModel& model, std::size_t count, float radius,
+                         float lift) {
+    const float reach = radius * view_.pixels_per_unit * samples_per_side;
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::vec3 at = to_samples(model.positions[i]);
+        const glm::vec3 color =
+            lit(linear(model.colors[i]) * linear(subject.palette[static_cast<std::size_t>(model.tints[i])]),
+                model.normals[i], subject.character.mesh.double_sided);
+        const int last_x = std::min(static_cast<int>(std::floor(at.x + reach)), width_ - 1);
+        const int last_y = std::min(static_cast<int>(std::floor(at.y + reach)), height_ - 1);
+        for (int y = std::max(static_cast<int>(std::floor(at.y - reach)), 0); y <= last_y; ++y) {
+            for (int x = std::max(static_cast<int>(std::floor(at.x - reach)), 0); x <= last_x; ++x) {
+                const float dx = static_cast<float>(x) + 0.5f - at.x, dy = static_cast<float>(y) + 0.5f - at.y;
+                if (dx * dx + dy * dy <= reach * reach) put(x, y, at.z + lift, color);
+            }
+        }
+    }
+}
+
+bool Canvas::sees(const glm::vec3& spot, float tolerance) const {
+    const glm::vec3 at = to_samples(spot);
+    const int x = static_cast<int>(std::floor(at.x)), y = static_cast<int>(std::floor(at.y));
+    if (x < 0 || x >= width_ || y < 0 || y >= height_) return false;
+    return depths_[static_cast<std::size_t>(y) * width_ + x] <= at.z + tolerance;
+}
+
+render::Image Canvas::image() const {
+    render::Image out{view_.width, view_.height, {}};
+    for (int y = 0; y < view_.height; ++y) {
+        for (int x = 0; x < view_.width; ++x) {
+            glm::vec3 sum(0);
+            for (int row = y * samples_per_side; row < (y + 1) * samples_per_side; ++row)
+                for (int column = x * samples_per_side; column < (x + 1) * samples_per_side; ++column)
+                    sum += colors_[static_cast<std::size_t>(row) * width_ + column];
+            sum /= samples_per_side * samples_per_side;
+            for (int channel = 0; channel < 3; ++channel)
+                out.pixels.push_back(pointsample::srgb_of_linear(sum[channel]));
+        }
+    }
+    return out;
+}
+
+std::vector<glm::vec3> seen_spots(const Subject& subject, std::span<const glm::vec3> spots) {
+    constexpr int directions = 96;
+    constexpr float height_px = 120, tolerance = 0.004f;  // of the height: a slope's over two samples
+    std::vector<char> seen(spots.size());
+    for (int i = 0; i < directions; ++i) {
+        // A spiral from pole to pole: nearly even on the sphere.
+        const float elevation = std::asin((2 * static_cast<float>(i) + 1) / directions - 1);
+        const float azimuth = static_cast<float>(i) * std::numbers::pi_v<float> * (3 - std::sqrt(5.0f));
+        Canvas canvas(view_of(subject.bounds, azimuth, elevation, height_px / subject.height(), 1));
+        canvas.draw_mesh(subject, glm::vec3(0));
+        for (std::size_t k = 0; k < spots.size(); ++k)
+            if (!seen[k]) seen[k] = canvas.sees(spots[k], tolerance * subject.height());
+    }
+    std::vector<glm::vec3> kept;
+    for (std::size_t k = 0; k < spots.size(); ++k)
+        if (seen[k]) kept.push_back(spots[k]);
+    return kept;
+}
+
+void paste(render::Image& sheet, const render::Image& part, int x, int y) {
+    assert(x >= 0 && y >= 0 && x + part.width <= sheet.width && y + part.height <= sheet.height);
+    for (int row = 0; row < part.height; ++row) {
+        const auto from = part.pixels.begin() + std::ptrdiff_t{3} * row * part.width;
+        std::copy(from, from + std::ptrdiff_t{3} * part.width,
+                  sheet.pixels.begin() + std::ptrdiff_t{3} * ((y + row) * sheet.width + x));
+    }
+}
+
+}  // namespace bench
