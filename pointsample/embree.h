@@ -20,4 +20,15 @@ inline void occluded(RTCScene scene, RTCRay& ray) {
 #endif
 }
 
+// The same for eight rays; lanes whose `valid` is 0 are left alone.
+inline void occluded(RTCScene scene, const int* valid, RTCRay8& rays) {
+#if GRANDSTAND_EMBREE >= 4
+    rtcOccluded8(valid, scene, &rays, nullptr);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded8(valid, scene, &context, &rays);
+#endif
+}
+
 }  // namespace pointsample

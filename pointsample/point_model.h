@@ -13,7 +13,8 @@
 namespace pointsample {
 
 // How well the first `points` points cover the surface: in no pose that the model was made for is any visible spot of
-// it farther than `radius` [units] from the nearest of them.
+// it farther than `radius` [units] from the nearest of them. A point on the other side of a thin sheet is taken for
+// twice as far.
 struct Coverage {
     std::uint32_t points = 0;
     float radius = 0;
@@ -28,15 +29,21 @@ struct PointModel {
     std::vector<motion::Tint> tints;
     std::vector<glm::u16vec4> joints;  // the four heaviest of the triangle's
     std::vector<glm::vec4> weights;    // >= 0, sum 1
-    std::vector<float> spacing;        // [units] to the nearest point before it; infinite for the first
-    std::vector<Coverage> coverage;    // by rising points, half an octave apart, the last of all points; radius falls
-    float area = 0;                    // of all triangles, hidden ones too [units^2]
-    std::size_t hidden_removed = 0;    // so many more the whole surface would have: those that can't be seen from outside
+    // [units] From each point to the nearest before it, in the pose in which the surface there is stretched most; twice
+    // as far where faces oppose. Infinite for the first, never more than that of the one before. Of an even model in
+    // the order it is given in; of a uniform one the expectation, sqrt(area / i) / 2 at point i.
+    std::vector<float> spacing;
+    // By rising points (1, 2, 3, 4, 6, 8, 12 ...), the last of all points; the radius never rises. Measured
+    // (coverage.h).
+    std::vector<Coverage> coverage;
+    float area = 0;                  // of all triangles, hidden ones too [units^2]
+    std::size_t hidden_removed = 0;  // so many more the whole surface would have: those that can't be seen from outside
 
     std::size_t size() const { return positions.size(); }
 
     // The fewest points that leave no hole in any pose when each is drawn as a square of `splat_px` [px] and a unit is
     // `pixels_per_unit` [px] long; size() + 1 if all together leave one. A person of h pixels has h / height of them.
+    // Between the entries of `coverage`, which may not be empty, the radius is taken to fall as a power.
     std::size_t hole_free_points(float pixels_per_unit, float splat_px) const;
 };
 

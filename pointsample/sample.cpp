@@ -1,376 +1,260 @@
 #include "pointsample/sample.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
-#include <cstddef>
+#include <limits>
+#include <numbers>
 #include <optional>
-#include <span>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
-#include "motion/pose.h"
-#include "pointsample/srgb.h"
-#include "pointsample/visibility.h"
+#include "pointsample/attributes.h"
+#include "pointsample/candidates.h"
+#include "pointsample/coverage.h"
+#include "pointsample/even.h"
+#include "pointsample/farthest_order.h"
+#include "pointsample/hash.h"
+#include "pointsample/hidden.h"
+#include "pointsample/surface.h"
+#include "pointsample/surface_line.h"
+#include "pointsample/uniform.h"
 
 namespace pointsample {
 namespace {
 
-using motion::Mesh;
-using motion::SurfacePoint;
+constexpr std::size_t batch_size = 65536;
 
-// A triangle while the surface is being ordered.
-struct Piece {
-    glm::vec3 center;
-    std::uint32_t triangle;
-    double area;
-};
-
-// Reorders `cell` (at least two pieces) so that its first part, whose count is returned, lies on one side along the
-// longest axis and has half of the area, as nearly as whole pieces allow. Neither part is empty. Linear time.
-std::size_t halve(std::span<Piece> cell) {
-    glm::vec3 low = cell[0].center, high = low;
-    double area = 0;
-    for (const Piece& piece : cell) {
-        low = glm::min(low, piece.center);
-        high = glm::max(high, piece.center);
-        area += piece.area;
-    }
-    const glm::vec3 size = high - low;
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const auto before = [axis](const Piece& a, const Piece& b) {
-        return a.center[axis] < b.center[axis] || (a.center[axis] == b.center[axis] && a.triangle < b.triangle);
-    };
-    // A selection by area: [0, first) is below the half, [last, size) above it.
-    std::size_t first = 0, last = cell.size();
-    double below = 0;
-    while (last - first > 1) {
-        const std::size_t middle = first + (last - first) / 2;
-        std::nth_element(cell.begin() + static_cast<std::ptrdiff_t>(first),
-                         cell.begin() + static_cast<std::ptrdiff_t>(middle),
-                         cell.begin() + static_cast<std::ptrdiff_t>(last), before);
-        double lower = 0;
-        for (std::size_t i = first; i < middle; ++i) lower += cell[i].area;
-        if (below + lower <= 0.5 * area) {
-            below += lower;
-            first = middle;
-        } else {
-            last = middle;
-        }
-    }
-    // The piece at `first` crosses the half: it goes where that leaves the smaller difference.
-    const bool take = below + 0.5 * cell[first].area < 0.5 * area;
-    return std::clamp<std::size_t>(first + (take ? 1 : 0), 1, cell.size() - 1);
-}
-
-// The surface as one line of length `area()`: its triangles one after another, each as long as its area, in the order
-// of a tree that halves the area across the longest side of its cells. So the line's halves, quarters, eighths ... are
-// compact patches of the surface. Triangles without a finite area are left out.
-class SurfaceLine {
+// Rising fractions to somebody who may not care, in steps of a hundredth and more.
+class Progress {
 public:
-    SurfaceLine(const Mesh& mesh, const std::vector<glm::vec3>& positions) : mesh_(mesh), positions_(positions) {
-        for (std::size_t i = 0; i < mesh.triangle_count(); ++i) {
-            const std::uint32_t triangle = static_cast<std::uint32_t>(i);
-            if (area_of(triangle) > 0) triangles_.push_back(triangle);
-        }
-        order_by_halving();
-        ends_.reserve(triangles_.size());
-        double end = 0;
-        for (const std::uint32_t triangle : triangles_) ends_.push_back(end += area_of(triangle));
-        if (!(end > 0) || !std::isfinite(end))
-            throw std::runtime_error("found no triangle with an area; expected a surface to sample");
+    explicit Progress(const std::function<void(double)>& report) : report_(report) {}
+
+    void operator()(double fraction) {
+        if (!report_ || fraction < last_ + 0.01) return;
+        last_ = fraction;
+        report_(fraction);
     }
-
-    double area() const { return ends_.back(); }
-
-    // The point at `along` in [0, 1) of the line.
-    SurfacePoint at(double along) const {
-        const double position = along * area();
-        const auto end = std::upper_bound(ends_.begin(), ends_.end() - 1, position);
-        const std::size_t slot = static_cast<std::size_t>(end - ends_.begin());
-        const double start = slot == 0 ? 0.0 : ends_[slot - 1];
-        return inside(triangles_[slot], std::clamp((position - start) / (*end - start), 0.0, 1.0));
+    // For a stage that lasts from one fraction to another.
+    std::function<void(double)> part(double from, double to) {
+        return [this, from, to](double share) { (*this)(from + (to - from) * share); };
     }
 
 private:
-    glm::dvec3 corner(std::uint32_t triangle, std::size_t i) const {
-        return positions_[mesh_.indices[std::size_t{3} * triangle + i]];
-    }
-
-    // 0 if it is not finite.
-    double area_of(std::uint32_t triangle) const {
-        const glm::dvec3 a = corner(triangle, 0);
-        const double area = 0.5 * glm::length(glm::cross(corner(triangle, 1) - a, corner(triangle, 2) - a));
-        return std::isfinite(area) ? area : 0.0;
-    }
-
-    void order_by_halving() {
-        std::vector<Piece> pieces;
-        for (const std::uint32_t triangle : triangles_) {
-            const glm::dvec3 center = (corner(triangle, 0) + corner(triangle, 1) + corner(triangle, 2)) / 3.0;
-            pieces.push_back({glm::vec3(center), triangle, area_of(triangle)});
-        }
-        std::vector<std::span<Piece>> cells{pieces};
-        while (!cells.empty()) {
-            const std::span<Piece> cell = cells.back();
-            cells.pop_back();
-            if (cell.size() < 2) continue;
-            const std::size_t half = halve(cell);
-            cells.push_back(cell.first(half));
-            cells.push_back(cell.subspan(half));
-        }
-        for (std::size_t i = 0; i < pieces.size(); ++i) triangles_[i] = pieces[i].triangle;
-    }
-
-    // Sierpinski's curve through one triangle, `along` in [0, 1]: from the first end of the longest edge to its second,
-    // halving the triangle at that edge's middle again and again. Halves have equal areas, so area is preserved.
-    SurfacePoint inside(std::uint32_t triangle, double along) const {
-        std::size_t first = 0;
-        double longest = -1;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const double length = glm::distance(corner(triangle, i), corner(triangle, (i + 1) % 3));
-            if (length > longest) longest = length, first = i;
-        }
-        // Corners as barycentrics of the triangle's second and third.
-        static constexpr std::array<glm::dvec2, 3> corners{glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(0, 1)};
-        glm::dvec2 from = corners[first], to = corners[(first + 1) % 3], apex = corners[(first + 2) % 3];
-        constexpr int halvings = 40;  // down to 2^-20 of an edge
-        for (int i = 0; i < halvings; ++i) {
-            const glm::dvec2 middle = 0.5 * (from + to);
-            along *= 2;
-            if (along < 1) {
-                to = apex;
-            } else {
-                along -= 1;
-                from = apex;
-            }
-            apex = middle;
-        }
-        const glm::dvec2 center = (from + to + apex) / 3.0;
-        const float u = static_cast<float>(center.x), v = static_cast<float>(center.y);
-        return {triangle, u, std::min(v, 1.0f - u)};
-    }
-
-    const Mesh& mesh_;
-    const std::vector<glm::vec3>& positions_;
-    std::vector<std::uint32_t> triangles_;
-    std::vector<double> ends_;
+    const std::function<void(double)>& report_;
+    double last_ = 0;
 };
 
-// Where the seed's sequence starts (splitmix64: neighbouring seeds start far apart).
-std::uint64_t start_of(std::uint64_t seed) {
-    seed += 0x9e3779b97f4a7c15u;
-    seed = (seed ^ seed >> 30) * 0xbf58476d1ce4e5b9u;
-    seed = (seed ^ seed >> 27) * 0x94d049bb133111ebu;
-    return seed ^ seed >> 31;
-}
-
-// Element `index` of the golden-ratio sequence in [0, 1), in exact 64-bit arithmetic: whatever the prefix, the gaps
-// between its elements have at most three lengths, within a factor of 2.62 (the three-distance theorem).
-double golden(std::uint64_t start, std::uint64_t index) {
-    constexpr std::uint64_t golden_fraction = 0x9e3779b97f4a7c15u;  // (sqrt(5) - 1) / 2 * 2^64
-    return static_cast<double>((start + index * golden_fraction) >> 11) * 0x1p-53;
-}
-
-// Linear light.
-glm::vec3 linear(const glm::u8vec4& color) {
-    return {linear_of_srgb(color.r), linear_of_srgb(color.g), linear_of_srgb(color.b)};
-}
-
-// Bilinear, wrapping, in linear light.
-glm::vec3 texture_at(const motion::Texture& texture, const glm::vec2& uv) {
-    const glm::vec2 size(texture.width, texture.height);
-    const glm::vec2 at = (uv - glm::floor(uv)) * size - 0.5f;
-    const glm::vec2 corner = glm::floor(at), s = at - corner;
-    const auto texel = [&](int dx, int dy) {
-        const int x = (static_cast<int>(corner.x) + dx + texture.width) % texture.width;
-        const int y = (static_cast<int>(corner.y) + dy + texture.height) % texture.height;
-        return linear(texture.texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(texture.width) +
-                                     static_cast<std::size_t>(x)]);
-    };
-    return glm::mix(glm::mix(texel(0, 0), texel(1, 0), s.x), glm::mix(texel(0, 1), texel(1, 1), s.x), s.y);
-}
-
-// One triangle's corners and how much of each a point has.
-struct Corners {
-    std::array<std::uint32_t, 3> vertex;
-    std::array<float, 3> share;
-
-    Corners(const Mesh& mesh, const SurfacePoint& point) : share{1.0f - point.u - point.v, point.u, point.v} {
-        std::copy_n(mesh.indices.begin() + std::ptrdiff_t{3} * point.triangle, 3, vertex.begin());
-    }
-    template <typename Get>
-    auto blend(Get get) const {
-        return get(vertex[0]) * share[0] + get(vertex[1]) * share[1] + get(vertex[2]) * share[2];
-    }
-    std::uint32_t nearest() const {
-        return vertex[static_cast<std::size_t>(std::max_element(share.begin(), share.end()) - share.begin())];
-    }
+// What all stages know.
+struct Job {
+    const Surface& surface;
+    const SampleOptions& options;
+    HiddenTest* hidden;  // null: everything counts as visible
+    Progress& progress;
 };
 
-glm::vec3 position_of(const Corners& corners, const std::vector<glm::vec3>& positions) {
-    return corners.blend([&](std::uint32_t i) { return positions[i]; });
+// A model's points before they are described.
+struct Draft {
+    std::vector<motion::SurfacePoint> points;
+    std::vector<float> spacing;       // PointModel's
+    std::size_t hidden_removed = 0;   // PointModel's
+    std::vector<float> first_radius;  // measure_coverage's
+    Spots spots;                      // measure_coverage's
+};
+
+// The search for visible points would not end where there are next to none.
+void refuse_the_hidden(std::size_t visible, std::size_t tried) {
+    if (1000 * visible < tried)
+        throw std::runtime_error("found " + std::to_string(visible) + " of " + std::to_string(tried) +
+                                 " points visible from outside; expected at least one in a thousand");
 }
 
-// Interpolated; where the corners' normals cancel out, the triangle's own.
-glm::vec3 normal_of(const Corners& corners, const std::vector<glm::vec3>& positions,
-                    const std::vector<glm::vec3>& normals) {
-    glm::dvec3 normal = corners.blend([&](std::uint32_t i) { return normals[i]; });
-    double length = glm::length(normal);
-    if (!(length > 1e-6) || !std::isfinite(length)) {
-        const glm::dvec3 a = positions[corners.vertex[0]];
-        normal = glm::cross(glm::dvec3(positions[corners.vertex[1]]) - a, glm::dvec3(positions[corners.vertex[2]]) - a);
-        length = glm::length(normal);
-    }
-    return glm::vec3(normal / length);
+// What is to be left of candidates for so many points: `per_point` each up to 200,000 points, which then share theirs
+// with more until each has six; and enough for a few points too.
+std::size_t candidate_count(std::size_t points, std::size_t per_point) {
+    constexpr std::size_t most_points = 200000, fewest_per_point = 6, least = 8192;
+    return std::max({per_point * std::min(points, most_points), fewest_per_point * points, least});
 }
 
-glm::u8vec4 color_of(const Mesh& mesh, const Corners& corners) {
-    glm::vec3 light = corners.blend([&](std::uint32_t i) { return linear(mesh.colors[i]); });
-    const float alpha = corners.blend([&](std::uint32_t i) { return static_cast<float>(mesh.colors[i].a); });
-    const std::uint8_t texture = mesh.texture_ids[corners.vertex[0]];
-    if (texture != motion::no_texture)
-        light *= texture_at(mesh.textures[texture], corners.blend([&](std::uint32_t i) { return mesh.uvs[i]; }));
-    return {srgb_of_linear(light.r), srgb_of_linear(light.g), srgb_of_linear(light.b),
-            static_cast<std::uint8_t>(std::min(alpha + 0.5f, 255.0f))};
-}
+struct VisibleCandidates {
+    Candidates candidates;
+    std::size_t made = 0;  // hidden ones too
+    double cell_area = 0;  // that each stands for [units^2]
 
-// The corners' influences, the same joint once, and of those the four heaviest.
-void append_influences(const Mesh& mesh, const Corners& corners, PointModel& out) {
-    std::array<std::pair<float, std::uint16_t>, 12> found{};
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        for (int k = 0; k < 4; ++k) {
-            const float weight = mesh.weights[corners.vertex[i]][k] * corners.share[i];
-            const std::uint16_t joint = mesh.joints[corners.vertex[i]][k];
-            if (!(weight > 0.0f)) continue;
-            std::size_t at = 0;
-            while (at < count && found[at].second != joint) ++at;
-            if (at == count) found[count++] = {0.0f, joint};
-            found[at].first += weight;
+    double visible_area() const { return cell_area * static_cast<double>(candidates.count); }
+};
+
+// One candidate to each of `made` cells of the surface's line, without the hidden ones.
+VisibleCandidates make_candidates(const Job& job, std::span<const std::uint32_t> line, std::size_t made,
+                                  std::size_t expected, const std::function<void(double)>& progress) {
+    VisibleCandidates out{{}, made, job.surface.total_area() / static_cast<double>(made)};
+    out.candidates.reserve(expected + expected / 64);
+    Stratifier stratifier(job.surface, line, made, job.options.seed);
+    while (stratifier.left() > 0) {
+        const std::size_t before = out.candidates.count;
+        stratifier.append(batch_size, out.candidates);
+        if (job.hidden != nullptr) {
+            const std::span<const motion::SurfacePoint> all = out.candidates.surface;
+            out.candidates.keep(before, job.hidden->visible(all.subspan(before, out.candidates.count - before)));
         }
+        progress(1 - static_cast<double>(stratifier.left()) / static_cast<double>(made));
     }
-    std::sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(count), [](const auto& a, const auto& b) {
-        return a.first > b.first || (a.first == b.first && a.second < b.second);
-    });
-    glm::u16vec4 joints(0);
-    glm::vec4 weights(0.0f);
-    float sum = 0;
-    for (std::size_t i = 0; i < std::min<std::size_t>(count, 4); ++i) sum += found[i].first;
-    for (std::size_t i = 0; i < std::min<std::size_t>(count, 4); ++i) {
-        joints[static_cast<int>(i)] = found[i].second;
-        weights[static_cast<int>(i)] = found[i].first / sum;
-    }
-    if (!(sum > 0.0f)) weights.x = 1.0f;
-    out.joints.push_back(joints);
-    out.weights.push_back(weights);
+    return out;
 }
 
-class Sampler {
-public:
-    Sampler(const Mesh& mesh, const std::vector<glm::vec3>& positions, const std::vector<glm::vec3>& normals,
-            const SampleOptions& options)
-        : mesh_(mesh), positions_(positions), normals_(normals), options_(options), line_(mesh, positions) {
-        if (options.visible_only) visibility_.emplace(positions, mesh.indices);
+// As many visible candidates as are `wanted`, nearly.
+VisibleCandidates make_visible_candidates(const Job& job, std::size_t wanted,
+                                          const std::function<void(double)>& progress) {
+    constexpr std::size_t estimate = 8192;
+    const std::vector<std::uint32_t> line = order_along_line(job.surface);
+    double share = 1;
+    if (job.hidden != nullptr) {
+        const std::size_t seen = make_candidates(job, line, estimate, estimate, [](double) {}).candidates.count;
+        refuse_the_hidden(seen, estimate);
+        share = static_cast<double>(seen) / static_cast<double>(estimate);
     }
+    VisibleCandidates out;
+    do {  // again if the estimate was far off
+        const std::size_t made = static_cast<std::size_t>(std::ceil(static_cast<double>(wanted) / share));
+        out = make_candidates(job, line, made, wanted, progress);
+        share *= 0.5;
+    } while (out.candidates.count < job.options.count);
+    out.candidates.pad();
+    return out;
+}
 
-    PointModel run(const std::function<void(double)>& progress) {
-        PointModel out;
-        out.area = static_cast<float>(line_.area());
-        const std::uint64_t start = start_of(options_.seed);
-        std::uint64_t next = 0;
-        while (out.size() < options_.count) {
-            const std::vector<SurfacePoint> candidates = batch(start, next, options_.count - out.size());
-            const std::vector<char> visible = see(candidates);
-            for (std::size_t i = 0; i < candidates.size() && out.size() < options_.count; ++i) {
-                if (visible[i])
-                    append(candidates[i], out);
+// Evenly along the line, so many that measuring coverage is bounded.
+Spots spots_of(const VisibleCandidates& from) {
+    const std::size_t stride = (from.candidates.count + most_spots - 1) / most_spots;
+    Spots spots{{}, from.cell_area * static_cast<double>(stride)};
+    for (std::size_t i = 0; i < from.candidates.count; i += stride) spots.places.push_back(from.candidates.surface[i]);
+    return spots;
+}
+
+// Where an order begins.
+std::size_t first_candidate(std::size_t count, std::uint64_t seed) {
+    constexpr std::uint64_t last = std::numeric_limits<std::uint64_t>::max();  // no candidate's
+    return static_cast<std::size_t>(unit(hash(seed, last)) * static_cast<double>(count));
+}
+
+void take(const FarthestOrder& order, const Candidates& candidates, double unit, Draft& draft) {
+    for (const std::uint32_t i : order.candidates) draft.points.push_back(candidates.surface[i]);
+    for (const float spacing : order.spacing) draft.spacing.push_back(static_cast<float>(unit * spacing));
+}
+
+std::size_t hidden_beside(std::size_t points, const VisibleCandidates& from) {
+    const double visible = static_cast<double>(from.candidates.count), made = static_cast<double>(from.made);
+    return static_cast<std::size_t>(std::llround(static_cast<double>(points) * (made - visible) / visible));
+}
+
+Draft progressive(const Job& job) {
+    const std::size_t count = job.options.count;
+    VisibleCandidates from = make_visible_candidates(job, candidate_count(count, 16), job.progress.part(0, 0.3));
+    const FarthestOrder order =
+        farthest_order(from.candidates, count, first_candidate(from.candidates.count, job.options.seed),
+                       coverage_marks(count), job.progress.part(0.3, 0.9));
+    Draft draft;
+    draft.hidden_removed = hidden_beside(count, from);
+    take(order, from.candidates, job.surface.unit(), draft);
+    const double between = std::sqrt(0.5 * from.cell_area);
+    for (const float radius : order.radius)
+        draft.first_radius.push_back(static_cast<float>(job.surface.unit() * radius + between));
+    if (job.surface.poses().size() > 1) draft.spots = spots_of(from);
+    return draft;
+}
+
+Draft even(const Job& job) {
+    const std::size_t count = job.options.count;
+    VisibleCandidates from = make_visible_candidates(job, candidate_count(count, 24), job.progress.part(0, 0.2));
+    Candidates& candidates = from.candidates;
+    Draft draft;
+    draft.hidden_removed = hidden_beside(count, from);
+    draft.spots = spots_of(from);
+
+    constexpr double wanted = 0.76;  // of the densest packing's
+    const double densest = 2 * std::sqrt(from.visible_area() / (2 * std::numbers::sqrt3 * static_cast<double>(count)));
+    FarthestOrder order = farthest_order(candidates, count, first_candidate(candidates.count, job.options.seed), {},
+                                         job.progress.part(0.2, 0.4));
+    const std::vector<std::uint32_t> points =
+        make_even(candidates, std::move(order.candidates), static_cast<float>(wanted * densest / job.surface.unit()),
+                  job.progress.part(0.4, 0.9));
+    // What was moved is in no order any more.
+    std::vector<char> kept(candidates.count, 0);
+    for (const std::uint32_t point : points) kept[point] = 1;
+    candidates.keep(0, kept);
+    candidates.pad();
+    order = farthest_order(candidates, count, first_candidate(count, job.options.seed), {});
+    take(order, candidates, job.surface.unit(), draft);
+    return draft;
+}
+
+Draft uniform(const Job& job) {
+    const std::size_t count = job.options.count;
+    const AliasTable table(job.surface);
+    Draft draft;
+    draft.points.reserve(count + batch_size);
+    std::size_t tried = 0;
+    while (draft.points.size() < count) {
+        const std::size_t before = draft.points.size();
+        const std::size_t batch = job.hidden != nullptr ? batch_size : std::min(batch_size, count - before);
+        for (std::size_t i = 0; i < batch; ++i) draft.points.push_back(table.draw(job.options.seed, tried + i));
+        tried += batch;
+        if (job.hidden != nullptr) {
+            const std::vector<char> seen = job.hidden->visible(std::span(draft.points).subspan(before));
+            std::size_t to = before;
+            for (std::size_t i = 0; i < batch && to < count; ++i) {
+                if (seen[i])
+                    draft.points[to++] = draft.points[before + i];
                 else
-                    ++out.hidden_removed;
+                    ++draft.hidden_removed;
             }
-            next += candidates.size();
-            refuse_the_hidden(next, out.size());
-            if (progress) progress(static_cast<double>(out.size()) / static_cast<double>(options_.count));
+            draft.points.resize(to);
+            refuse_the_hidden(to, tried);
         }
-        return out;
+        job.progress(0.9 * static_cast<double>(draft.points.size()) / static_cast<double>(count));
     }
+    const VisibleCandidates from =
+        make_visible_candidates(job, std::min(candidate_count(count, 16), most_spots), [](double) {});
+    draft.spots = spots_of(from);
+    draft.spacing.push_back(std::numeric_limits<float>::infinity());
+    for (std::size_t i = 1; i < count; ++i)
+        draft.spacing.push_back(static_cast<float>(0.5 * std::sqrt(from.visible_area() / static_cast<double>(i))));
+    return draft;
+}
 
-private:
-    // Enough candidates to go on with: a few more than are `missing`, as some will be hidden.
-    std::vector<SurfacePoint> batch(std::uint64_t start, std::uint64_t first, std::size_t missing) const {
-        constexpr std::size_t least = 1024, most = 16384;  // most: progress shows; least: threads have work
-        std::vector<SurfacePoint> candidates(std::clamp(missing + missing / 4, least, most));
-        for (std::size_t i = 0; i < candidates.size(); ++i) candidates[i] = line_.at(golden(start, first + i));
-        return candidates;
+Draft make_draft(const Job& job) {
+    switch (job.options.order) {
+        case Order::even:
+            return even(job);
+        case Order::uniform:
+            return uniform(job);
+        default:
+            return progressive(job);
     }
-
-    std::vector<char> see(const std::vector<SurfacePoint>& candidates) const {
-        std::vector<char> visible(candidates.size(), 1);
-        if (!visibility_) return visible;
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, candidates.size()), [&](const auto& range) {
-            for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                const Corners corners(mesh_, candidates[i]);
-                visible[i] = visibility_->sees_outside(position_of(corners, positions_),
-                                                       normal_of(corners, positions_, normals_), mesh_.double_sided);
-            }
-        });
-        return visible;
-    }
-
-    // One visible in a thousand is taken for none, or the search would not end.
-    void refuse_the_hidden(std::uint64_t tried, std::size_t kept) const {
-        constexpr std::uint64_t patience = 65536;
-        if (kept < options_.count && tried >= patience && kept < tried / 1000)
-            throw std::runtime_error("found " + std::to_string(kept) + " of " + std::to_string(tried) +
-                                     " points visible from outside; expected at least one in a thousand");
-    }
-
-    void append(const SurfacePoint& point, PointModel& out) const {
-        const Corners corners(mesh_, point);
-        out.surface.push_back(point);
-        out.positions.push_back(position_of(corners, positions_));
-        out.normals.push_back(normal_of(corners, positions_, normals_));
-        out.colors.push_back(color_of(mesh_, corners));
-        out.tints.push_back(mesh_.tints[corners.nearest()]);
-        append_influences(mesh_, corners, out);
-    }
-
-    const Mesh& mesh_;
-    const std::vector<glm::vec3>&positions_, &normals_;
-    const SampleOptions& options_;
-    SurfaceLine line_;
-    std::optional<Visibility> visibility_;
-};
+}
 
 }  // namespace
 
-PointModel sample(const Mesh& mesh, std::span<const PosedMesh> poses, const SampleOptions& options,
-                  const std::function<void(double)>& progress) {
+PointModel sample(const motion::Mesh& mesh, std::span<const PosedMesh> poses, const SampleOptions& options,
+                  const std::function<void(double)>& report) {
     assert(options.count >= 1 && !poses.empty());
-    return Sampler(mesh, poses.front().positions, poses.front().normals, options).run(progress);
-}
+    Progress progress(report);
+    const Surface surface(mesh.indices, poses);
+    std::optional<HiddenTest> hidden;
+    if (options.visible_only) hidden.emplace(surface, mesh.double_sided);
+    Draft draft = make_draft({surface, options, hidden ? &*hidden : nullptr, progress});
+    hidden.reset();  // frees the ray-tracing scenes
 
-std::vector<PosedMesh> spread_poses(const motion::Character& character, std::span<const int> clips, std::size_t count) {
-    assert(count >= 1);
-    std::vector<PosedMesh> poses(clips.empty() ? 1 : count);
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-        motion::Pose pose;
-        if (clips.empty()) {
-            motion::evaluate_rest(character, pose);
-        } else {
-            const motion::Clip& clip = character.clips[static_cast<std::size_t>(clips[i % clips.size()])];
-            const std::size_t rounds = (poses.size() + clips.size() - 1) / clips.size();
-            const double share = static_cast<double>(i / clips.size()) / static_cast<double>(rounds);
-            motion::evaluate(character, clip, share * clip.duration, pose);
-        }
-        motion::skin(character.mesh, pose, poses[i].positions, poses[i].normals);
-    }
-    return poses;
+    PointModel model;
+    model.area = static_cast<float>(surface.total_first_area());
+    model.hidden_removed = draft.hidden_removed;
+    model.surface = std::move(draft.points);
+    model.spacing = std::move(draft.spacing);
+    describe(mesh, surface.poses().front(), model);
+    model.coverage =
+        measure_coverage(surface, draft.spots, model.surface, coverage_marks(options.count), draft.first_radius);
+    if (report) report(1.0);
+    return model;
 }
 
 }  // namespace pointsample

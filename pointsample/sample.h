@@ -4,12 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <glm/glm.hpp>
 #include <span>
-#include <vector>
 
-#include "motion/character.h"
+#include "motion/mesh.h"
 #include "pointsample/point_model.h"
+#include "pointsample/posed_mesh.h"
 
 namespace pointsample {
 
@@ -26,20 +25,17 @@ struct SampleOptions {
     bool visible_only = true;  // no points that can't be seen from outside in any of the poses
 };
 
-// A mesh's vertices in one pose: motion::skin's outputs, one element a vertex.
-struct PosedMesh {
-    std::vector<glm::vec3> positions, normals;
-};
-
-// `count` poses spread over the clips (indices into character.clips; none: the rest pose alone), the first one first:
-// what a model that is to look right in all of them is made for.
-std::vector<PosedMesh> spread_poses(const motion::Character& character, std::span<const int> clips, std::size_t count);
-
-// Points of the first pose's surface. Where other poses are given, each triangle has the points that it needs where it
-// is stretched most, and a point stays if it is seen in any pose. The same bits on every run and thread count.
-// Triangles without a finite area get none. `progress` gets rising fractions, 1 in the end. Memory [bytes]: about 700 a
-// point and 40 a triangle. Throws std::runtime_error if no triangle has an area, or less than a thousandth of it is
-// visible.
+// Points of the first pose's surface; at least one pose. Where other poses are given, each triangle has the points that
+// it needs where it is stretched most, and a point stays if it is seen in any pose. The same bits on every run and
+// thread count. Every count is a sequence of its own: smaller models are its prefixes, and not those of another count.
+// Triangles without a finite area in the first pose get none. `progress` gets rising fractions, 1 in the end.
+//
+// Time: progressive 5 microseconds a point, even 40, uniform 0.2; a ten-thousandth of a second per thousand triangles;
+// and what the hidden test takes, in proportion to the surface that has to be tried for what is visible of it. Memory
+// [bytes], progressive: 800 a point up to 200,000 points, which have 16 candidates each; more share 3.2 million
+// candidates until they have 6 each, 330 a point. Even: half as much again. Uniform: 70 a point. With it 40 a triangle
+// and, if visible_only, 100 a triangle for each pose that is needed to see whether points are hidden.
+// Throws std::runtime_error if no triangle has an area, or less than a thousandth of it is visible.
 PointModel sample(const motion::Mesh& mesh, std::span<const PosedMesh> poses, const SampleOptions& options,
                   const std::function<void(double)>& progress = {});
 

@@ -1,5 +1,8 @@
 #include "pointsample/visibility.h"
 
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -14,7 +17,11 @@
 namespace pointsample {
 namespace {
 
-constexpr std::size_t direction_count = 96;
+constexpr std::size_t direction_count = 128;  // over the whole sphere: half of them are above any surface
+constexpr float least_cosine = 0.03f;         // rays nearer to the surface would hit what they start from
+constexpr std::size_t run_length = 256;       // points whose tests know of each other
+constexpr int packet = 8;
+constexpr int rays_after_hidden = 8;
 
 // Embree sees the mesh scaled to a diagonal of 1, as products of very large or small coordinates leave float's range.
 // Rays start this far off the surface: well above float's rounding of positions (1e-7), well below the gap between a
@@ -23,18 +30,70 @@ constexpr float offset = 1e-5f;
 
 using Directions = std::array<glm::vec3, direction_count>;
 
-// A spherical Fibonacci spread over the hemisphere of +z, from the pole down to the horizon: most points see something
-// near their normal, so that the first ray settles them.
+// A spherical Fibonacci spread, in an order whose runs are spread as well.
 Directions make_directions() {
     constexpr double golden_angle = 2.39996322972865332;
+    constexpr std::size_t stride = direction_count * 5 / 8 - 1;                        // near the golden section
+    static_assert(stride % 2 == 1 && (direction_count & (direction_count - 1)) == 0);  // so that all come once
     Directions directions;
     for (std::size_t i = 0; i < direction_count; ++i) {
-        const double z = 1.0 - (static_cast<double>(i) + 0.5) / static_cast<double>(direction_count);
-        const double radius = std::sqrt(1.0 - z * z), angle = golden_angle * static_cast<double>(i);
+        const double k = static_cast<double>(i * stride % direction_count);
+        const double z = 1.0 - 2.0 * (k + 0.5) / static_cast<double>(direction_count);
+        const double radius = std::sqrt(1.0 - z * z), angle = golden_angle * k;
         directions[i] = glm::vec3(radius * std::cos(angle), radius * std::sin(angle), z);
     }
     return directions;
 }
+
+// Eight rays from one point.
+class Packet {
+public:
+    explicit Packet(const glm::vec3& from) : from_(from) { std::fill_n(valid_, packet, 0); }
+
+    bool is_full() const { return count_ == packet; }
+    int count() const { return count_; }
+
+    void add(std::size_t number, const glm::vec3& direction) {
+        rays_.org_x[count_] = from_.x, rays_.org_y[count_] = from_.y, rays_.org_z[count_] = from_.z;
+        rays_.dir_x[count_] = direction.x, rays_.dir_y[count_] = direction.y, rays_.dir_z[count_] = direction.z;
+        rays_.tnear[count_] = 0, rays_.tfar[count_] = std::numeric_limits<float>::infinity();
+        rays_.time[count_] = 0, rays_.mask[count_] = ~0u, rays_.id[count_] = 0, rays_.flags[count_] = 0;
+        number_[count_] = number;
+        valid_[count_++] = -1;
+    }
+
+    // The number of the first direction that nothing is in the way of; direction_count if there is none.
+    std::size_t first_open(RTCScene scene) {
+        occluded(scene, valid_, rays_);
+        for (int i = 0; i < count_; ++i)
+            if (rays_.tfar[i] >= 0.0f) return number_[i];
+        return direction_count;
+    }
+
+private:
+    alignas(32) RTCRay8 rays_{};
+    alignas(32) int valid_[packet];
+    std::size_t number_[packet]{};
+    int count_ = 0;
+    glm::vec3 from_;
+};
+
+bool is_open(RTCScene scene, const glm::vec3& from, const glm::vec3& direction) {
+    RTCRay ray{};
+    ray.org_x = from.x, ray.org_y = from.y, ray.org_z = from.z;
+    ray.dir_x = direction.x, ray.dir_y = direction.y, ray.dir_z = direction.z;
+    ray.tfar = std::numeric_limits<float>::infinity();
+    ray.mask = ~0u;
+    occluded(scene, ray);
+    return ray.tfar >= 0.0f;
+}
+
+// What the points of a run tell those after them.
+struct Run {
+    std::size_t last_open = 0;  // direction
+    std::size_t next = 0;       // direction to begin with
+    bool after_hidden = false;
+};
 
 bool is_finite(const glm::vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -63,6 +122,7 @@ struct Visibility::Scene {
     Scene& operator=(const Scene&) = delete;
 
     glm::vec3 scaled(const glm::vec3& point) const { return (point - center) * scale; }
+    bool sees(const glm::vec3& from, const glm::vec3& normal, Run& run) const;
 
     void* new_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::size_t stride,
                      std::size_t count) {
@@ -108,29 +168,45 @@ Visibility::Visibility(std::span<const glm::vec3> positions, std::span<const std
 
 Visibility::~Visibility() = default;
 
-bool Visibility::sees_outside(glm::vec3 point, glm::vec3 normal, bool two_sided) const {
+bool Visibility::Scene::sees(const glm::vec3& from, const glm::vec3& normal, Run& run) const {
     static const Directions directions = make_directions();
-    // Any two axes across the normal (Duff et al. 2017, "Building an orthonormal basis, revisited").
-    const float sign = std::copysign(1.0f, normal.z);
-    const float a = -1.0f / (sign + normal.z), b = normal.x * normal.y * a;
-    const glm::vec3 tangent(1.0f + sign * normal.x * normal.x * a, sign * b, -sign * normal.x);
-    const glm::vec3 bitangent(b, sign + normal.y * normal.y * a, -normal.y);
-    const glm::vec3 start = scene_->scaled(point);
-    for (int side = 0; side < (two_sided ? 2 : 1); ++side) {
-        const glm::vec3 pole = side == 0 ? normal : -normal;
-        const glm::vec3 origin = start + offset * pole;
-        for (const glm::vec3& local : directions) {
-            const glm::vec3 direction = local.x * tangent + local.y * bitangent + local.z * pole;
-            RTCRay ray{};
-            ray.org_x = origin.x, ray.org_y = origin.y, ray.org_z = origin.z;
-            ray.dir_x = direction.x, ray.dir_y = direction.y, ray.dir_z = direction.z;
-            ray.tfar = std::numeric_limits<float>::infinity();
-            ray.mask = ~0u;
-            occluded(scene_->scene, ray);
-            if (ray.tfar >= 0.0f) return true;
+    if (glm::dot(directions[run.last_open], normal) > least_cosine && is_open(scene, from, directions[run.last_open]))
+        return true;
+    int rays = 0;
+    for (std::size_t asked = 0; asked < direction_count;) {
+        Packet rays8(from);
+        for (; !rays8.is_full() && asked < direction_count; ++asked) {
+            const std::size_t number = (run.next + asked) % direction_count;
+            if (glm::dot(directions[number], normal) > least_cosine) rays8.add(number, directions[number]);
+        }
+        const std::size_t open = rays8.count() > 0 ? rays8.first_open(scene) : direction_count;
+        if (open < direction_count) {
+            run.last_open = open;
+            return true;
+        }
+        rays += rays8.count();
+        if (run.after_hidden && rays >= rays_after_hidden) {
+            run.next = (run.next + asked) % direction_count;
+            return false;
         }
     }
     return false;
+}
+
+std::vector<char> Visibility::look(std::span<const Place> places, bool two_sided) const {
+    std::vector<char> seen(places.size());
+    const std::size_t runs = (places.size() + run_length - 1) / run_length;
+    tbb::parallel_for(std::size_t{0}, runs, [&](std::size_t number) {
+        Run run;
+        const std::size_t first = number * run_length, last = std::min(first + run_length, places.size());
+        for (std::size_t i = first; i < last; ++i) {
+            const glm::vec3 at = scene_->scaled(places[i].position), normal = places[i].normal;
+            seen[i] = scene_->sees(at + offset * normal, normal, run) ||
+                      (two_sided && scene_->sees(at - offset * normal, -normal, run));
+            run.after_hidden = seen[i] == 0;
+        }
+    });
+    return seen;
 }
 
 }  // namespace pointsample

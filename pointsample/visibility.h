@@ -1,4 +1,4 @@
-// Which points of a surface can be seen from outside at all. The one place that knows Embree (3 or 4).
+// Which points of a surface can be seen from outside at all, in one pose. The one place that knows Embree (3 or 4).
 #pragma once
 
 #include <cstdint>
@@ -6,11 +6,11 @@
 #include <span>
 #include <vector>
 
-#include <glm/glm.hpp>
+#include "pointsample/posed_mesh.h"
 
 namespace pointsample {
 
-// A ray-tracing scene over one posed mesh.
+// A ray-tracing scene over one posed mesh. About 100 bytes a triangle.
 class Visibility {
 public:
     // Copies what it needs. Throws std::runtime_error when Embree has no device.
@@ -19,9 +19,12 @@ public:
     Visibility(const Visibility&) = delete;
     Visibility& operator=(const Visibility&) = delete;
 
-    // Whether some ray from `point` over a fixed spread of directions in the hemisphere of `normal` (both hemispheres
-    // if `two_sided`) leaves the mesh unhindered; stops at the first that does.
-    bool sees_outside(glm::vec3 point, glm::vec3 normal, bool two_sided) const;
+    // For each place whether a ray from it leaves the mesh unhindered: on the side of its normal (on either if
+    // `two_sided`), in any of 64 directions that are at least 2 degrees above the surface. Neighbours are to come one
+    // after another: a point is first asked in the direction in which the one before it saw out, and after one that saw
+    // nothing in eight directions only, others each time. So a hole of a twentieth of the sky is found for all points,
+    // and a smaller one for some. In parallel, with the same result on any number of threads.
+    std::vector<char> look(std::span<const Place> places, bool two_sided) const;
 
 private:
     struct Scene;

@@ -109,19 +109,6 @@ TEST(Sampler, ASeedNamesOneSequenceOnAnyThreadCount) {
     EXPECT_FALSE(same_bits(one.positions, other.positions));
 }
 
-TEST(Sampler, FewerPointsAreThePrefixOfMore) {
-    motion::Mesh nested = tests::make_sphere(1, 3);
-    tests::append(nested, tests::make_sphere(0.5f, 2));
-    for (const bool visible_only : {false, true}) {
-        const PointModel all = sample(nested, 20000, visible_only);
-        for (const std::size_t count : {1u, 10u, 777u, 4096u}) {
-            PointModel prefix = sample(nested, count, visible_only);
-            const std::vector<glm::vec3> start(all.positions.begin(), all.positions.begin() + static_cast<long>(count));
-            EXPECT_TRUE(same_bits(prefix.positions, start)) << count;
-        }
-    }
-}
-
 TEST(Sampler, PointsLieOnTheirTriangles) {
     const motion::Mesh sphere = tests::make_sphere(2, 2);
     const PointModel model = sample(sphere, 5000);
@@ -163,9 +150,10 @@ TEST(Sampler, FacesOfACubeShareEveryPrefix) {
     std::vector<int> counts(6);
     for (std::size_t n = 0; n < model.size(); ++n) {
         ++counts[model.surface[n].triangle / 2];
-        // Each triangle is one stretch of the line, on which the golden sequence is off by a few points at most
-        // (its discrepancy grows as log n / n); random points would be off by sqrt(n / 6) = 30 in the end.
-        for (const int count : counts) ASSERT_NEAR(count, static_cast<double>(n + 1) / 6, 6) << n;
+        // An even sample's counts are off by what its rim has, sqrt(n / 6) * 4 points, half of them shared; random
+        // points would be off by sqrt(n / 6) = 30 in the end as one standard deviation.
+        const double due = static_cast<double>(n + 1) / 6;
+        for (const int count : counts) ASSERT_NEAR(count, due, 3 + 0.5 * std::sqrt(due)) << n;
     }
 }
 
@@ -179,7 +167,9 @@ TEST(Sampler, OneHugeTriangleAmongTinyOnesGetsItsShare) {
     double on_huge = 0;
     for (std::size_t n = 0; n < model.size(); ++n) {
         on_huge += model.surface[n].triangle == 0;
-        ASSERT_NEAR(on_huge, static_cast<double>(n + 1) / 2, 5) << n;
+        // Points on open edges stand for half their disc, and the two parts have edges of different length.
+        const double due = static_cast<double>(n + 1) / 2;
+        ASSERT_NEAR(on_huge, due, 3 + 0.75 * std::sqrt(due)) << n;
     }
 }
 
@@ -319,14 +309,20 @@ TEST(Sampler, ProgressOnlyRisesAndEndsAtOne) {
     EXPECT_EQ(last, 1.0);
 }
 
+bool sees_outside(const pointsample::Visibility& visibility, const glm::vec3& point, const glm::vec3& normal,
+                  bool two_sided) {
+    const pointsample::Place place{point, normal};
+    return visibility.look({&place, 1}, two_sided)[0] != 0;
+}
+
 TEST(Visibility, EndsAtAClosedSurface) {
     const motion::Mesh sphere = tests::make_sphere(1, 3);
     const pointsample::Visibility visibility(sphere.positions, sphere.indices);
     for (const glm::vec3& direction : random_on_sphere(200, 5)) {
-        EXPECT_FALSE(visibility.sees_outside(0.9f * direction, direction, false));
-        EXPECT_FALSE(visibility.sees_outside(glm::vec3(0), direction, true));
-        EXPECT_TRUE(visibility.sees_outside(1.1f * direction, direction, false));
-        EXPECT_TRUE(visibility.sees_outside(1.1f * direction, -direction, true));
+        EXPECT_FALSE(sees_outside(visibility, 0.9f * direction, direction, false));
+        EXPECT_FALSE(sees_outside(visibility, glm::vec3(0), direction, true));
+        EXPECT_TRUE(sees_outside(visibility, 1.1f * direction, direction, false));
+        EXPECT_TRUE(sees_outside(visibility, 1.1f * direction, -direction, true));
     }
 }
 
@@ -340,15 +336,27 @@ TEST(Visibility, FindsAHoleOfFivePercentOfTheSky) {
         if (center.z < 0.9f) kept.insert(kept.end(), {cup.indices[i], cup.indices[i + 1], cup.indices[i + 2]});
     }
     const pointsample::Visibility visibility(cup.positions, kept);
-    EXPECT_TRUE(visibility.sees_outside({0, 0, 0}, {0, 0, 1}, false));
-    EXPECT_TRUE(visibility.sees_outside({0, 0, -0.99f}, {0, 0, 1}, false));
-    EXPECT_FALSE(visibility.sees_outside({0, 0, 0}, {0, 0, -1}, false));
-    EXPECT_TRUE(visibility.sees_outside({0, 0, 0}, {0, 0, -1}, true));
+    EXPECT_TRUE(sees_outside(visibility, {0, 0, 0}, {0, 0, 1}, false));
+    EXPECT_TRUE(sees_outside(visibility, {0, 0, -0.99f}, {0, 0, 1}, false));
+    EXPECT_FALSE(sees_outside(visibility, {0, 0, 0}, {0, 0, -1}, false));
+    EXPECT_TRUE(sees_outside(visibility, {0, 0, 0}, {0, 0, -1}, true));
 }
 
 TEST(Visibility, NothingHidesNothing) {
     const pointsample::Visibility visibility({}, {});
-    EXPECT_TRUE(visibility.sees_outside({0, 0, 0}, {0, 0, 1}, false));
+    EXPECT_TRUE(sees_outside(visibility, {0, 0, 0}, {0, 0, 1}, false));
+}
+
+// What is hidden is told by the points before, but runs of these are short: ten thousand alike are all told right.
+TEST(Visibility, ManyPointsAreToldAsOneByOne) {
+    motion::Mesh nested = tests::make_sphere(1, 3);
+    tests::append(nested, tests::make_sphere(0.5f, 3));
+    const pointsample::Visibility visibility(nested.positions, nested.indices);
+    std::vector<pointsample::Place> places;
+    for (const glm::vec3& direction : random_on_sphere(10000, 9))
+        places.push_back({(places.size() % 3 == 0 ? 0.5f : 1.0f) * 1.01f * direction, direction});
+    const std::vector<char> seen = visibility.look(places, false);
+    for (std::size_t i = 0; i < places.size(); ++i) ASSERT_EQ(seen[i] != 0, i % 3 != 0) << i;
 }
 
 }  // namespace

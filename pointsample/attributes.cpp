@@ -1,0 +1,136 @@
+#include "pointsample/attributes.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "pointsample/srgb.h"
+
+namespace pointsample {
+namespace {
+
+using motion::Mesh;
+using motion::SurfacePoint;
+
+// Linear light.
+glm::vec3 linear(const glm::u8vec4& color) {
+    return {linear_of_srgb(color.r), linear_of_srgb(color.g), linear_of_srgb(color.b)};
+}
+
+// Bilinear, wrapping, in linear light.
+glm::vec3 texture_at(const motion::Texture& texture, const glm::vec2& uv) {
+    const glm::vec2 size(texture.width, texture.height);
+    const glm::vec2 at = (uv - glm::floor(uv)) * size - 0.5f;
+    const glm::vec2 corner = glm::floor(at), s = at - corner;
+    const auto texel = [&](int dx, int dy) {
+        const int x = (static_cast<int>(corner.x) + dx + texture.width) % texture.width;
+        const int y = (static_cast<int>(corner.y) + dy + texture.height) % texture.height;
+        return linear(texture.texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(texture.width) +
+                                     static_cast<std::size_t>(x)]);
+    };
+    return glm::mix(glm::mix(texel(0, 0), texel(1, 0), s.x), glm::mix(texel(0, 1), texel(1, 1), s.x), s.y);
+}
+
+// One triangle's corners and how much of each a point has.
+struct Corners {
+    std::array<std::uint32_t, 3> vertex;
+    std::array<float, 3> share;
+
+    Corners(const Mesh& mesh, const SurfacePoint& point) : share{1.0f - point.u - point.v, point.u, point.v} {
+        std::copy_n(mesh.indices.begin() + std::ptrdiff_t{3} * point.triangle, 3, vertex.begin());
+    }
+    template <typename Get>
+    auto blend(Get get) const {
+        return get(vertex[0]) * share[0] + get(vertex[1]) * share[1] + get(vertex[2]) * share[2];
+    }
+    std::uint32_t nearest() const {
+        return vertex[static_cast<std::size_t>(std::max_element(share.begin(), share.end()) - share.begin())];
+    }
+};
+
+// Interpolated; where the corners' normals cancel out, the triangle's own.
+glm::vec3 normal_of(const Corners& corners, const PosedMesh& pose) {
+    glm::dvec3 normal = corners.blend([&](std::uint32_t i) { return pose.normals[i]; });
+    double length = glm::length(normal);
+    if (!(length > 1e-6) || !std::isfinite(length)) {
+        const auto corner = [&](std::size_t i) { return glm::dvec3(pose.positions[corners.vertex[i]]); };
+        normal = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
+        length = glm::length(normal);
+    }
+    return glm::vec3(normal / length);
+}
+
+glm::u8vec4 color_of(const Mesh& mesh, const Corners& corners) {
+    glm::vec3 light = corners.blend([&](std::uint32_t i) { return linear(mesh.colors[i]); });
+    const float alpha = corners.blend([&](std::uint32_t i) { return static_cast<float>(mesh.colors[i].a); });
+    const std::uint8_t texture = mesh.texture_ids[corners.vertex[0]];
+    if (texture != motion::no_texture)
+        light *= texture_at(mesh.textures[texture], corners.blend([&](std::uint32_t i) { return mesh.uvs[i]; }));
+    return {srgb_of_linear(light.r), srgb_of_linear(light.g), srgb_of_linear(light.b),
+            static_cast<std::uint8_t>(std::min(alpha + 0.5f, 255.0f))};
+}
+
+struct Influences {
+    glm::u16vec4 joints{0};
+    glm::vec4 weights{0.0f};
+};
+
+// The corners' influences, the same joint once, and of those the four heaviest.
+Influences influences_of(const Mesh& mesh, const Corners& corners) {
+    std::array<std::pair<float, std::uint16_t>, 12> found{};
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (int k = 0; k < 4; ++k) {
+            const float weight = mesh.weights[corners.vertex[i]][k] * corners.share[i];
+            const std::uint16_t joint = mesh.joints[corners.vertex[i]][k];
+            if (!(weight > 0.0f)) continue;
+            std::size_t at = 0;
+            while (at < count && found[at].second != joint) ++at;
+            if (at == count) found[count++] = {0.0f, joint};
+            found[at].first += weight;
+        }
+    }
+    std::sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(count), [](const auto& a, const auto& b) {
+        return a.first > b.first || (a.first == b.first && a.second < b.second);
+    });
+    Influences out;
+    float sum = 0;
+    for (std::size_t i = 0; i < std::min<std::size_t>(count, 4); ++i) sum += found[i].first;
+    for (std::size_t i = 0; i < std::min<std::size_t>(count, 4); ++i) {
+        out.joints[static_cast<int>(i)] = found[i].second;
+        out.weights[static_cast<int>(i)] = found[i].first / sum;
+    }
+    if (!(sum > 0.0f)) out.weights.x = 1.0f;
+    return out;
+}
+
+}  // namespace
+
+void describe(const Mesh& mesh, const PosedMesh& pose, PointModel& model) {
+    const std::size_t count = model.surface.size();
+    model.positions.resize(count);
+    model.normals.resize(count);
+    model.colors.resize(count);
+    model.tints.resize(count);
+    model.joints.resize(count);
+    model.weights.resize(count);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1024), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            const Corners corners(mesh, model.surface[i]);
+            model.positions[i] = place_of(model.surface[i], mesh.indices, pose).position;
+            model.normals[i] = normal_of(corners, pose);
+            model.colors[i] = color_of(mesh, corners);
+            model.tints[i] = mesh.tints[corners.nearest()];
+            const Influences influences = influences_of(mesh, corners);
+            model.joints[i] = influences.joints;
+            model.weights[i] = influences.weights;
+        }
+    });
+}
+
+}  // namespace pointsample

@@ -1,0 +1,27 @@
+// Farthest-point order over candidates (Gonzalez 1985; Eldar et al. 1997), kept level (farthest_tree.h): each next
+// point is the candidate farthest from all before it, so that every prefix is an even sample.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "pointsample/candidates.h"
+
+namespace pointsample {
+
+struct FarthestOrder {
+    std::vector<std::uint32_t> candidates;  // one a point
+    std::vector<float> spacing;  // sqrt(key) of each as it was chosen, or the least before; infinite for the first
+    std::vector<float> radius;   // at each mark: the largest distance of a candidate
+};
+
+// `count` in [1, candidates.count] points, from the candidate `first` on. `marks`: rising numbers of points in
+// [1, count]. `progress` gets rising fractions. Ties go to the candidate that comes first. Time is O(n log n + m log n)
+// for n points of m candidates that come in compact runs: 3 microseconds a point at m = 16 n.
+FarthestOrder farthest_order(Candidates& candidates, std::size_t count, std::size_t first,
+                             std::span<const std::uint32_t> marks, const std::function<void(double)>& progress = {});
+
+}  // namespace pointsample
