@@ -76,7 +76,8 @@ double fitted_top(std::span<const float> times, std::span<const float> targets) 
     if (sorted.empty()) return least > 0 ? least : 1;
     const double robust = std::min(1.25 * ranked(sorted, 0.95), 4 * ranked(sorted, 0.5));
     const double top = std::min(1.05 * sorted.back(), std::max(least, robust));
-    return top > 0 ? std::max(top, 1.1 * target) : 1;
+    const double shown = std::max(top, 1.1 * target);
+    return shown > 0 ? shown : 1;
 }
 
 }  // namespace sfsm::report

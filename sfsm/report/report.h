@@ -45,7 +45,7 @@ struct ReportRun {
 struct Report {
     std::string title;
     std::vector<std::pair<std::string, std::string>> facts;  // of the run and the machine, in the order shown
-    std::vector<ReportRun> runs;                             // >= 1, each with >= 1 frame; the first is shown first
+    std::vector<ReportRun> runs;                             // >= 1; the first is shown first
 };
 
 // Text may hold anything: it is escaped. The same report gives the same bytes. Runs have eight colours; the ninth has

@@ -75,7 +75,7 @@ struct TimeAxis {
 };
 
 TimeAxis time_axis(const Report& report) {
-    TimeAxis time;
+    TimeAxis time{1, {}};  // a picture of no frames has an axis too
     for (const ReportRun& run : report.runs) {
         time.frames = std::max(time.frames, static_cast<std::int64_t>(run.frames.size()));
     }
@@ -90,16 +90,19 @@ std::vector<Bucket> thin_over(const TimeAxis& time, const std::vector<float>& va
 }
 
 // From bucket to bucket, each from the end that is nearer to where the last one ended. `steps`: values hold for whole
-// frames.
+// frames. One that stands alone becomes a short dash, or nobody would see it.
 std::string curve(const TimeAxis& time, const Axis& y, const std::vector<float>& values, bool steps) {
     std::string path;
     bool is_drawing = false;
     double last = 0;
-    for (const Bucket& bucket : thin_over(time, values)) {
+    const std::vector<Bucket> buckets = thin_over(time, values);
+    for (std::size_t i = 0; i < buckets.size(); ++i) {
+        const Bucket& bucket = buckets[i];
         if (bucket.is_empty()) {
             is_drawing = false;
             continue;
         }
+        const bool is_alone = !is_drawing && (i + 1 == buckets.size() || buckets[i + 1].is_empty());
         double near = y(bucket.low), far = y(bucket.high);
         if (is_drawing && std::abs(far - last) < std::abs(near - last)) std::swap(near, far);
         const double begin = static_cast<double>(bucket.begin) - 0.5, end = static_cast<double>(bucket.end) - 0.5;
@@ -107,6 +110,7 @@ std::string curve(const TimeAxis& time, const Axis& y, const std::vector<float>&
         path += (is_drawing ? "L" : "M") + pixels(x) + " " + pixels(near);
         if (far != near || !is_drawing) path += "V" + pixels(far);
         if (steps) path += "H" + pixels(time.axis(end));
+        if (!steps && is_alone) path += "h-3h6";
         is_drawing = true;
         last = far;
     }
@@ -231,7 +235,9 @@ double draw_times(std::string& out, const Report& report, const TimeAxis& time, 
         std::string("Frame time [ms], target \u00B15 %") + (shows_predicted ? "; dashed: predicted" : ""), y, 6);
     const std::vector<float> targets = series(report.runs[0], &ReportFrame::target_ms);
     out += target_band(time, y, targets);
-    out += stroke(curve(time, y, targets, true), faint_ink);
+    const bool is_thinned = time.frames > 2 * columns;  // curves are areas: they would hide the target
+    const std::string target = stroke(curve(time, y, targets, true), is_thinned ? ink : faint_ink);
+    if (!is_thinned) out += target;
     for (std::size_t i = 0; i < report.runs.size(); ++i) {
         const std::vector<float> times = series(report.runs[i], &ReportFrame::frame_ms);
         out += stroke(curve(time, y, times, false), colour_of(i), "stroke-width=\"1.25\" stroke-opacity=\"0.9\"");
@@ -241,6 +247,7 @@ double draw_times(std::string& out, const Report& report, const TimeAxis& time, 
         out +=
             stroke(curve(time, y, predicted, false), colour_of(i), "stroke-dasharray=\"3 3\" stroke-opacity=\"0.7\"");
     }
+    if (is_thinned) out += target;
     double bottom = y.begin + 8;
     for (std::size_t i = 0; i < report.runs.size(); ++i, bottom += strip_height + strip_gap) {
         out += rectangle(left - 10, bottom, 6, strip_height, colour_of(i)) + state_strip(time, report.runs[i], bottom);

@@ -26,11 +26,15 @@ protected:
         open(report_);
     }
 
-    void open(const sfsm::Report& report) {
+    void load(const sfsm::Report& report) {
         std::ofstream file(folder_ / "a report.html", std::ios::binary);
         sfsm::write_report_html(file, report);
         file.close();
         browser_->open("file://" + (folder_ / "a%20report.html"));
+    }
+
+    void open(const sfsm::Report& report) {
+        load(report);
         wait_for("return document.querySelectorAll('#percentiles path.curve').length > 0");
     }
 
@@ -135,6 +139,9 @@ TEST_F(ReportInBrowser, ConsoleStaysSilent) {
     huge.target_ms = -1;
     huge.motion_distance = std::numeric_limits<float>::infinity();
     huge.state = sfsm::State::points;
+    load({"none", {}, {{"law", {}, {}}}});
+    EXPECT_EQ(browser_->console(), json::array());
+    EXPECT_EQ(value("return document.querySelector('#times').hidden"), true) << "there is nothing to draw";
     for (const auto& frames : {std::vector{huge}, std::vector{unknown, huge, unknown}}) {
         open({"odd", {}, {{"law", frames, sfsm::time_scores(frames)}}});
         for (const char* scale : {"full", "log", "fitted"}) {
@@ -168,6 +175,17 @@ TEST_F(ReportInBrowser, EachChartHasACurveOfEachRun) {
         EXPECT_EQ(value("return document.querySelectorAll('#frame-chart .strip ." + std::string(state) + "').length"),
                   2);
     }
+}
+
+TEST_F(ReportInBrowser, ManyFramesDontHideTheTarget) {
+    const std::string is_above =
+        "const after = Node.DOCUMENT_POSITION_FOLLOWING, chart = document.querySelector('#frame-chart');"
+        "return (chart.querySelector('.measured').compareDocumentPosition(chart.querySelector('.target')) & after) > 0";
+    EXPECT_EQ(value(is_above), false);
+    const std::vector<sfsm::ReportFrame> frames(100'000, sfsm::ReportFrame{16, 15});
+    open({"many", {}, {{"law", frames, sfsm::time_scores(frames)}}});
+    EXPECT_EQ(value(is_above), true);
+    EXPECT_EQ(browser_->console(), json::array());
 }
 
 TEST_F(ReportInBrowser, HoveringReadsOutTheFrame) {

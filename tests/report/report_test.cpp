@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "sfsm/report/plot.h"
 #include "tests/report/sample.h"
 
 namespace {
@@ -166,7 +167,8 @@ std::vector<std::pair<std::string, Report>> odd_reports() {
     hidden.motion_distance = -infinity;
     hidden.splat_size = nan;
     hidden.state = State::points;
-    return {{"one unknown frame", report_of({unknown})},
+    return {{"no frames", report_of({})},
+            {"one unknown frame", report_of({unknown})},
             {"unknown frames", report_of(std::vector<ReportFrame>(3000, unknown))},
             {"one huge frame", report_of({huge})},
             {"infinite", report_of({endless, endless})},
@@ -257,6 +259,30 @@ TEST(Report, PictureOfManyFramesKeepsASingleSpikeAndStaysSmall) {
     EXPECT_LT(spiked.size(), 200'000);
     EXPECT_EQ(count(even, "h7l-3.5 -6z"), 0);
     EXPECT_EQ(count(spiked, "h7l-3.5 -6z"), 1) << "a caret where it is clipped";
+}
+
+TEST(Report, ATimeThatStandsAloneIsSeen) {
+    const ReportFrame measured{16, 12, nan, 100, 0, State::slowed}, unknown{16, nan, nan, 100, 0, State::slowed};
+    EXPECT_EQ(count(svg_of(report_of({measured})), "h-3h6"), 1);
+    EXPECT_EQ(count(svg_of(report_of({measured, unknown, measured})), "h-3h6"), 2);
+    EXPECT_EQ(count(svg_of(report_of({measured, measured, unknown})), "h-3h6"), 0);
+}
+
+// 16.6 ms is of some use as a scale even where all times are 0.
+TEST(Report, TheTargetIsAlwaysOnTheAxis) {
+    for (const float ms : {0.0F, 1e-30F, 1.0F, 16.6F, 500.0F}) {
+        const std::vector<float> times(20, ms), targets(20, 16.6F);
+        EXPECT_GT(sfsm::report::fitted_top(times, targets), 1.05 * 16.6) << ms;
+    }
+}
+
+TEST(Report, ManyFramesDontHideTheTarget) {
+    const std::string curve = "stroke=\"#0072b2\" stroke-linejoin";
+    const std::string few = svg_of(report_of(std::vector<ReportFrame>(100, ReportFrame{16, 15})));
+    EXPECT_LT(few.find("stroke=\"#56606c\""), few.find(curve));
+    const std::string many = svg_of(report_of(std::vector<ReportFrame>(100'000, ReportFrame{16, 15})));
+    EXPECT_LT(many.find(curve), many.find("stroke=\"#1c2127\""));
+    EXPECT_NE(many.find("stroke=\"#1c2127\""), many.npos);
 }
 
 TEST(Report, BestOfEachFigureIsMarked) {

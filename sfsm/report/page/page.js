@@ -286,6 +286,8 @@ function setPrinting(isPrinting) {
 }
 
 function begin() {
+  byId("theme").addEventListener("click", nextTheme);
+  if (frameCount === 0) return;  // nothing to draw
   byId("times").hidden = byId("spread").hidden = false;
   for (const part of [byId("scatter"), document.querySelector(".key-predicted")]) part.hidden = !predicts.includes(true);
   makeLegend();
@@ -294,7 +296,6 @@ function begin() {
   byId("zoom-in").addEventListener("click", () => zoom(0.6));
   byId("zoom-out").addEventListener("click", () => zoom(1 / 0.6));
   byId("zoom-reset").addEventListener("click", showAll);
-  byId("theme").addEventListener("click", nextTheme);
   window.addEventListener("beforeprint", () => setPrinting(true));
   window.addEventListener("afterprint", () => setPrinting(false));
   drawDue();

@@ -79,12 +79,15 @@ function bucketOf(values, begin, end) {
   return { begin, end, low, high };
 }
 
+// Whether so many frames are in view that several share a bucket.
+const isThinned = (x) => x.high - x.low > 2 * (x.end - x.begin);
+
 // Frames in view, one bucket each as long as no more than two share a column of the picture, else one a column: no
 // spike is lost. One more on either side, so that curves run out of the picture.
 function thin(values, x) {
   const first = Math.max(0, Math.floor(x.low)), last = Math.min(values.length, Math.ceil(x.high) + 1);
   const buckets = [];
-  if (x.high - x.low <= 2 * (x.end - x.begin)) {
+  if (!isThinned(x)) {
     for (let i = first; i < last; ++i) buckets.push(bucketOf(values, i, i + 1));
     return buckets;
   }
@@ -98,19 +101,22 @@ function thin(values, x) {
 }
 
 // From bucket to bucket, each from the end that is nearer to where the last one ended. `steps`: values hold for whole
-// frames.
+// frames. One that stands alone becomes a short dash, or nobody would see it.
 function curvePath(buckets, x, y, steps) {
   let path = "", isDrawing = false, last = 0;
-  for (const { begin, end, low, high } of buckets) {
+  for (let i = 0; i < buckets.length; ++i) {
+    const { begin, end, low, high } = buckets[i], next = buckets[i + 1];
     if (low > high) {
       isDrawing = false;
       continue;
     }
+    const isAlone = !isDrawing && !(next && next.low <= next.high);
     let near = y.at(low), far = y.at(high);
     if (isDrawing && Math.abs(far - last) < Math.abs(near - last)) [near, far] = [far, near];
     path += (isDrawing ? "L" : "M") + px(frameAt(x, steps ? begin - 0.5 : (begin + end - 1) / 2)) + " " + px(near);
     if (near !== far || !isDrawing) path += "V" + px(far);
     if (steps) path += "H" + px(frameAt(x, end - 0.5));
+    else if (isAlone) path += "h-3h6";
     isDrawing = true;
     last = far;
   }

@@ -21,7 +21,7 @@ function fittedTop(highest, highestTarget) {
   if (sample.length === 0) return least > 0 ? least : 1;
   const robust = Math.min(1.25 * ranked(sample, 0.95), 4 * ranked(sample, 0.5));
   const top = Math.min(1.05 * highest, Math.max(least, robust));
-  return top > 0 ? Math.max(top, 1.1 * highestTarget) : 1;
+  return Math.max(top, 1.1 * highestTarget) || 1;
 }
 
 function highestOf(buckets) {
@@ -68,6 +68,7 @@ function openChart(id, height, bottom) {
   return chart;
 }
 
+// Returns the group of the line, which may have to lie above what is drawn later.
 function drawTarget(chart, y, run, buckets) {
   const group = addRun(chart.layer, run);
   const all = buckets.filter(({ low, high }) => Number.isFinite(low) && Number.isFinite(high));
@@ -82,8 +83,10 @@ function drawTarget(chart, y, run, buckets) {
     band += `M${left} ${px(y.at(1.05 * first.high))}H${right}V${px(y.at(0.95 * first.low))}H${left}Z`;
   }
   add(group, "path", { class: "band", d: band });
-  const line = add(group, "path", { class: "target", d: curvePath(all, chart.x, y, true) });
+  const above = addRun(chart.layer, run);
+  const line = add(above, "path", { class: "target", d: curvePath(all, chart.x, y, true) });
   if (targetRuns.length > 1) line.style.stroke = "var(--run)";
+  return above;
 }
 
 // Small triangles at the top where a curve goes on beyond it.
@@ -133,16 +136,20 @@ function drawFrameChart() {
   const curves = shown.map((run) => ({ run, times: thin(run.time, x) }));
   const targets = targetRuns.filter((run, i) => i === 0 || run.shown).map((run) => ({ run, buckets: thin(run.target, x) }));
   const y = chart.y = timeAxis(curves, targets.map(({ buckets }) => buckets), plot, 14);
-  targets.forEach(({ run, buckets }) => drawTarget(chart, y, run, buckets));
+  const lines = targets.map(({ run, buckets }) => drawTarget(chart, y, run, buckets));
   drawYAxis(chart.ground, x, y, 6);
   curves.forEach(({ run, times }, i) => {
     const group = addRun(chart.layer, run);
     add(group, "path", { class: "curve measured", d: curvePath(times, x, y, false) });
-    const isSingle = times.every(({ begin, end }) => end - begin === 1);
-    const predicted = isSingle ? thin(run.predicted, x) : meanBuckets(run.predicted, times);
+    const predicted = isThinned(x) ? meanBuckets(run.predicted, times) : thin(run.predicted, x);
     add(group, "path", { class: "curve predicted", d: curvePath(predicted, x, y, false) });
     drawCarets(group, chart, y, times);
     drawStates(chart, run, plot + 8 + i * (stripHeight + stripGap));
+  });
+  // Thinned curves are areas: they would hide the target.
+  if (isThinned(x)) lines.forEach((line) => {
+    line.classList.add("above");
+    chart.layer.append(line);
   });
 }
 
