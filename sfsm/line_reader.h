@@ -24,13 +24,16 @@ public:
     // std::runtime_error for a line over longest_line and where the stream can't be read.
     bool next(std::string_view& line);
 
-    // The next byte, or -1 at the end: for readers of a format without lines. They are counted nevertheless.
+    // The next byte, or -1 at the end: for readers of a format without lines. Those taken are counted nevertheless, a
+    // line feed as the last of its line.
+    int peek_byte() { return begin_ == end_ && !fill() ? -1 : static_cast<unsigned char>(buffer_[begin_]); }
     int next_byte() {
-        if (begin_ == end_ && !fill()) return -1;
-        const char c = buffer_[begin_++];
-        newlines_ += c == '\n';
+        const int byte = peek_byte();
+        if (byte < 0) return byte;
+        ++begin_;
         number_ = newlines_ + 1;
-        return static_cast<unsigned char>(c);
+        newlines_ += byte == '\n';
+        return byte;
     }
 
     std::int64_t number() const { return number_; }      // of the last line, from 1; 0 before the first

@@ -37,19 +37,21 @@ public:
     using reference = char;
 
     Bytes() = default;  // the end
-    explicit Bytes(LineReader& lines) : lines_(&lines), byte_(lines.next_byte()) {}
+    explicit Bytes(LineReader& lines) : lines_(&lines) {}
 
-    char operator*() const { return static_cast<char>(byte_); }
+    char operator*() const { return static_cast<char>(lines_->peek_byte()); }
     Bytes& operator++() {
-        byte_ = lines_->next_byte();
+        lines_->next_byte();
         return *this;
     }
-    bool operator==(const Bytes& other) const { return byte_ == other.byte_; }
-    bool operator!=(const Bytes& other) const { return byte_ != other.byte_; }
+    bool operator==(const Bytes& other) const { return is_end() == other.is_end(); }
+    bool operator!=(const Bytes& other) const { return !(*this == other); }
 
 private:
+    // Nothing is taken before the parser asks for it, or errors would name the line of the byte behind.
+    bool is_end() const { return !lines_ || lines_->peek_byte() < 0; }
+
     LineReader* lines_ = nullptr;
-    int byte_ = -1;
 };
 
 // Takes the parser's events. Knows where it is by the keys that lead there, one of each open object or array; an

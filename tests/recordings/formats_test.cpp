@@ -228,6 +228,9 @@ TEST(Formats, DamagedJsonIsRefusedByItsLine) {
     };
     const Bad bads[] = {
         {"{\n\"Runs\":[", "r.csv:2: found JSON that is damaged or cut short, expected CapFrameX's \"Runs\""},
+        {"{\n\"a\":x\n}\n", "r.csv:2: found JSON that is damaged"},
+        {capframex_json(json_run("\n16.1,\n1e999\n")), "r.csv:3: found a number too large"},
+        {capframex_json(json_run("\n16.1,\n\"x\"\n")), "r.csv:3: found 'x' in"},
         {"{}", "found JSON without runs"},
         {"[1,2]", "found JSON without runs"},
         {capframex_json(json_run("16.1,NaN")), "damaged"},

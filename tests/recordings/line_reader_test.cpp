@@ -66,7 +66,11 @@ TEST(LineReader, BytesAreCountedAsLinesToo) {
     std::istringstream in("ab\nc");
     LineReader reader(in, "t");
     std::string text;
-    for (int byte; (byte = reader.next_byte()) >= 0;) text += static_cast<char>(byte);
+    for (int byte; (byte = reader.next_byte()) >= 0;) {
+        text += static_cast<char>(byte);
+        EXPECT_EQ(reader.number(), byte == 'c' ? 2 : 1) << "a line feed is the last of its line";
+        reader.peek_byte();  // takes nothing
+    }
     EXPECT_EQ(text, "ab\nc");
     EXPECT_EQ(reader.number(), 2);
 }
