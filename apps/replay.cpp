@@ -88,6 +88,7 @@ void replay(const ReplayOptions& options) {
     sfsm::Report report{options.trace, facts, {}};
     Json json;
     for (const auto& [key, value] : facts) json[key] = value;
+    json["delay"] = session.delay;  // [frames]
     const Rerun recorded = recorded_run(session);
     json["recorded"] = rerun_json(recorded);
     Json& runs = json["runs"] = Json::array();

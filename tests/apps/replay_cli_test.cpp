@@ -228,6 +228,7 @@ TEST_F(ReplayProgram, AClosedLoopAnswersToItsDecisions) {
     const std::string trace = save(recorded());
     const json loose = json::parse(replay(trace + " --target-ms 20 --json -").out);
     const json tight = json::parse(replay(trace + " --target-ms 8 --json -").out);
+    EXPECT_EQ(loose["delay"], 2);
     EXPECT_EQ(loose["recorded"]["mean_ms"], tight["recorded"]["mean_ms"]);
     EXPECT_LT(tight["runs"][0]["p50_ms"], 9);
     EXPECT_GT(loose["runs"][0]["p50_ms"], tight["runs"][0]["p50_ms"]);
