@@ -13,6 +13,7 @@
 #include "sfsm/replay.h"
 #include "sfsm/simulate/recorded.h"
 #include "sfsm/target.h"
+#include "sfsm/text.h"
 
 namespace apps {
 namespace {
@@ -26,9 +27,9 @@ void say(const std::string& line) {
 }
 
 std::string describe(const sfsm::Stream& stream) {
-    std::string text = stream.process.empty() ? "unnamed" : stream.process;
-    if (!stream.process_id.empty()) text += " " + stream.process_id;
-    if (!stream.swap_chain.empty()) text += " " + stream.swap_chain;
+    std::string text = stream.process.empty() ? "unnamed" : sfsm::shown(stream.process);
+    for (const std::string& part : {stream.process_id, stream.swap_chain})
+        if (!part.empty()) text += " " + sfsm::shown(part);
     return text + " (" + std::to_string(stream.frames) + " frames)";
 }
 
@@ -103,9 +104,11 @@ sfsm::Trace read_own_trace(const std::string& path) {
 sim::Contestant law_of(const sfsm::Trace& trace, bool may_look_ahead) {
     const std::string& name = trace.settings.at("law");
     const std::optional<sim::Contestant> law = find_law(name);
-    if (!law) throw std::runtime_error(trace.name + ": found setting law=" + name + ", expected one of: " + law_list());
+    if (!law)
+        throw std::runtime_error(trace.name + ": found setting law=" + sfsm::shown(name) +
+                                 ", expected one of: " + law_list());
     if (!may_look_ahead && looks_ahead(*law))
-        throw std::runtime_error(trace.name + ": found setting law=" + name +
+        throw std::runtime_error(trace.name + ": found setting law=" + sfsm::shown(name) +
                                  ", which knows what is to come, expected one that decides without");
     return *law;
 }

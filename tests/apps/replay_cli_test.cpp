@@ -182,7 +182,7 @@ TEST_F(ReplayProgram, NamesTheTraceWhoseLawIsNone) {
             const Outcome outcome = replay(saved + option);
             EXPECT_EQ(outcome.code, 1) << law << option;
             EXPECT_TRUE(
-                outcome.err.starts_with("replay: " + saved + ": found setting law=" + law + ", expected one of: "))
+                outcome.err.starts_with("replay: " + saved + ": found setting law='" + law + "', expected one of: "))
                 << outcome.err;
             EXPECT_TRUE(tests::one_line(outcome.err)) << outcome.err;
         }
@@ -197,7 +197,7 @@ TEST_F(ReplayProgram, TheClairvoyantDecidesInClosedLoopsAlone) {
     for (const std::string option : {" --verify", " --open-loop"}) {
         const Outcome outcome = replay(in_folder("oracle.csv") + option);
         EXPECT_EQ(outcome.code, 1);
-        EXPECT_NE(outcome.err.find("oracle.csv: found setting law=oracle, which knows what is to come"),
+        EXPECT_NE(outcome.err.find("oracle.csv: found setting law='oracle', which knows what is to come"),
                   std::string::npos)
             << outcome.err;
     }
@@ -255,6 +255,19 @@ TEST_F(ReplayProgram, TakesTheBusiestProcessOrTheOneAskedFor) {
     const Outcome asked = replay(capture() + " --process dwm.exe --json -");
     ASSERT_EQ(asked.code, 0) << asked.err;
     EXPECT_EQ(json::parse(asked.out).at("recorded").at("frames"), 134);
+}
+
+// Names are other people's: they can't steer a terminal, nor make two lines of one.
+TEST_F(ReplayProgram, StreamsOfAnyNameAreListedOnOneLine) {
+    std::ofstream(in_folder("runs.json"))
+        << R"({"Info":{"ProcessName":"a\u001b[31m\nb"},"Runs":[{"CaptureData":{"MsBetweenPresents":[16,17]}},)"
+        << R"({"CaptureData":{"MsBetweenPresents":[16]}}]})";
+    const Outcome outcome = replay(in_folder("runs.json") + " --json -");
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("taken: 'a?[31m?b' 'run 1' (2 frames); --process takes another of: 'a?[31m?b' 'run 2' "),
+              std::string::npos)
+        << outcome.err;
+    EXPECT_TRUE(tests::one_line(outcome.err)) << outcome.err;
 }
 
 // 16 ms of load are held at 12 as soon as they are known, and 32 are too.
