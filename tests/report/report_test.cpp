@@ -64,7 +64,7 @@ template <class Number>
 std::vector<Number> numbers(const std::string& base64) {
     const std::string bytes = unbase64(base64);
     std::vector<Number> values(bytes.size() / sizeof(Number));
-    std::memcpy(values.data(), bytes.data(), bytes.size());
+    if (!values.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
     return values;
 }
 
