@@ -1,11 +1,9 @@
 // pointsample: a character's surface, in any pose, as an even sequence of coloured points.
 #include <sys/resource.h>
 
-#include <bit>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <exception>
 #include <iomanip>
 #include <limits>
@@ -22,6 +20,7 @@
 #include "motion/pose.h"
 #include "pointsample/gltf.h"
 #include "pointsample/point_model.h"
+#include "pointsample/points_file.h"
 #include "pointsample/sample.h"
 
 namespace {
@@ -109,21 +108,6 @@ pointsample::PosedMesh posed(const motion::Character& character, const std::stri
     return surface;
 }
 
-void write_ply(std::ostream& out, const pointsample::PointModel& model) {
-    static_assert(std::endian::native == std::endian::little, "the file's byte order is the machine's");
-    out << "ply\nformat binary_little_endian 1.0\nelement vertex " << model.size() << '\n';
-    for (const char* name : {"x", "y", "z", "nx", "ny", "nz"}) out << "property float " << name << '\n';
-    for (const char* name : {"red", "green", "blue"}) out << "property uchar " << name << '\n';
-    out << "end_header\n";
-    for (std::size_t i = 0; i < model.size(); ++i) {
-        char record[2 * sizeof(glm::vec3) + 3];
-        std::memcpy(record, &model.positions[i], sizeof(glm::vec3));
-        std::memcpy(record + sizeof(glm::vec3), &model.normals[i], sizeof(glm::vec3));
-        std::memcpy(record + 2 * sizeof(glm::vec3), &model.colors[i], 3);
-        out.write(record, sizeof record);
-    }
-}
-
 double peak_megabytes() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
@@ -163,7 +147,7 @@ void run(const Options& options) {
                                     [&](double fraction) { bar(fraction); });
     }
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    write_ply(output.stream(), model);
+    pointsample::write_ply(output.stream(), model, pointsample::PlyFormat::binary_little_endian);
     if (stats) {
         write_stats(stats->stream(), character.mesh, motion::bounds_of(surface.positions), model, seconds.count());
     }

@@ -10,13 +10,13 @@
 #include <stdexcept>
 #include <string>
 
+#include "motion/octahedral.h"
 #include "motion/schedule.h"
 
 namespace motion {
 namespace {
 
 constexpr float position_steps = 65535.0f;  // of a 16-bit unorm
-constexpr float normal_steps = 127.0f;      // of an 8-bit snorm
 
 // 200 days: more is a damaged file, and is cut. Half of what an int holds, so that rounding a period up fits too.
 constexpr std::int64_t longest_clip_ticks = std::int64_t{1} << 30;
@@ -161,29 +161,11 @@ std::uint16_t pack_unorm(float value, float min, float size) {
     return static_cast<std::uint16_t>(std::min(steps, position_steps) + 0.5f);
 }
 
-std::int8_t pack_snorm(float value) {
-    return static_cast<std::int8_t>(std::lround(value * normal_steps));
-}
-
-float sign_of(float value) {
-    return value < 0.0f ? -1.0f : 1.0f;
-}
-
-// Cigolle et al. 2014, "A survey of efficient representations for independent unit vectors": the octahedron's
-// lower half (z < 0) is folded over the diagonals of the square.
-glm::vec2 octahedral(const glm::vec3& normal) {
-    const float sum = std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z);
-    if (!(sum > 0.0f) || !std::isfinite(sum)) return glm::vec2(0.0f);
-    const glm::vec2 p(normal.x / sum, normal.y / sum);
-    if (normal.z >= 0.0f) return p;
-    return {(1.0f - std::abs(p.y)) * sign_of(p.x), (1.0f - std::abs(p.x)) * sign_of(p.y)};
-}
-
 PosedVertex pack(const glm::vec3& position, const glm::vec3& normal, const Bounds& box) {
     const glm::vec3 size = box.size();
-    const glm::vec2 folded = octahedral(normal);
+    const OctahedralNormal packed = pack_normal(normal);
     return {pack_unorm(position.x, box.min.x, size.x), pack_unorm(position.y, box.min.y, size.y),
-            pack_unorm(position.z, box.min.z, size.z), pack_snorm(folded.x), pack_snorm(folded.y)};
+            pack_unorm(position.z, box.min.z, size.z), packed.u, packed.v};
 }
 
 PosedVertex pack_point(const Mesh& mesh, const PosedMesh& posed, const SurfacePoint& point, const Bounds& box) {
@@ -243,11 +225,7 @@ glm::vec3 unpack_position(const PosedVertex& vertex, const Bounds& box) {
 }
 
 glm::vec3 unpack_normal(const PosedVertex& vertex) {
-    const glm::vec2 p(static_cast<float>(vertex.normal_u) / normal_steps,
-                      static_cast<float>(vertex.normal_v) / normal_steps);
-    const float z = 1.0f - std::abs(p.x) - std::abs(p.y);
-    const float fold = std::max(-z, 0.0f);
-    return glm::normalize(glm::vec3(p.x - sign_of(p.x) * fold, p.y - sign_of(p.y) * fold, z));
+    return unpack_normal(OctahedralNormal{vertex.normal_u, vertex.normal_v});
 }
 
 }  // namespace motion

@@ -41,6 +41,7 @@ public:
     InputFile(const InputFile&) = delete;
     InputFile& operator=(const InputFile&) = delete;
 
+    int descriptor() const { return descriptor_; }
     std::uint64_t left() const { return unread_ + (end_ - begin_); }  // bytes not yet handed out
 
     // The next line without its line end (LF or CR LF); valid until the next call. False: there is none.

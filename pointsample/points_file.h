@@ -1,6 +1,7 @@
 // Point models as files: our packed .pts, and PLY for other programs. Little-endian, the same bytes for the same model.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <iosfwd>
@@ -21,7 +22,9 @@ struct PackedPoint {
 };
 static_assert(sizeof(PackedPoint) == 12);
 
-// A .pts file in memory as it lies on disk: mapped, checked (magic, version, sizes, checksum) and then read in place.
+// A .pts file in memory as it lies on disk (docs/pts-format.md): mapped, checked (magic, version, sizes, checksum,
+// every value's range) and then read in place. Its writer must replace files, as apps/output.h does, not write into
+// them.
 class PointsFile {
 public:
     // Throws std::runtime_error: one line with the path, what was found and what was expected.
@@ -33,15 +36,21 @@ public:
     motion::Bounds box() const;                      // of the points [units]
     std::span<const PackedPoint> points() const;     // in the model's order
     const std::string& key() const { return key_; }  // what it was made from, as write_pts was told
-    PointModel unpack() const;                       // everything; positions to 1/131070 of the box
+
+    // Everything: exact but for positions (half a step of the box / 65535 an axis), normals (0.017 rad), u and v (half
+    // a step of 1 / 65535) and weights (1 / 255, sum 1). Written and read again it is the same bits.
+    PointModel unpack() const;
 
 private:
+    void check() const;
+    void check_values() const;
+
     void* bytes_ = nullptr;
     std::size_t size_ = 0;
     std::string key_;
 };
 
-// `key` may be anything up to 64 KiB.
+// `key` may be anything up to 64 KiB. The model's lists are of one length, as PointModel says. 37 bytes a point.
 void write_pts(std::ostream& out, const PointModel& model, const std::string& key);
 
 // x y z nx ny nz red green blue, in the model's order.
