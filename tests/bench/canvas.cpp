@@ -13,6 +13,7 @@ namespace bench {
 namespace {
 
 constexpr int samples_per_side = 4;  // of a pixel
+constexpr std::uint32_t no_triangle = ~0u;
 
 glm::vec3 linear(const glm::u8vec4& color) {
     return {pointsample::linear_of_srgb(color.r), pointsample::linear_of_srgb(color.g),
@@ -26,6 +27,11 @@ glm::vec3 texture_color(const motion::Texture& texture, const glm::vec2& uv) {
     };
     const std::size_t row = static_cast<std::size_t>(wrapped(uv.y, texture.height));
     return linear(texture.texels[row * texture.width + wrapped(uv.x, texture.width)]);
+}
+
+// Twice the signed area of a triangle in the picture.
+float turn(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
 }  // namespace
@@ -51,7 +57,8 @@ Canvas::Canvas(const View& view, glm::vec3 background)
       width_(view.width * samples_per_side),
       height_(view.height * samples_per_side),
       colors_(static_cast<std::size_t>(width_) * height_, background),
-      depths_(colors_.size(), -std::numeric_limits<float>::infinity()) {}
+      depths_(colors_.size(), -std::numeric_limits<float>::infinity()),
+      triangles_(colors_.size(), no_triangle) {}
 
 glm::vec3 Canvas::to_samples(const glm::vec3& position) const {
     const glm::vec3 from_center = position - view_.center;
@@ -61,11 +68,12 @@ glm::vec3 Canvas::to_samples(const glm::vec3& position) const {
             glm::dot(from_center, view_.toward)};
 }
 
-void Canvas::put(int x, int y, float depth, const glm::vec3& color) {
+void Canvas::put(int x, int y, float depth, const glm::vec3& color, std::uint32_t triangle) {
     const std::size_t sample = static_cast<std::size_t>(y) * width_ + x;
     if (depth <= depths_[sample]) return;
     depths_[sample] = depth;
     colors_[sample] = color;
+    triangles_[sample] = triangle;
 }
 
 // Lambert's law, with the stadium's sun.
@@ -76,31 +84,26 @@ glm::vec3 Canvas::lit(const glm::vec3& color, glm::vec3 normal, bool double_side
     return color * (surroundings + (1 - surroundings) * std::max(glm::dot(glm::normalize(normal), sun), 0.0f));
 }
 
+glm::vec3 Canvas::surface_color(const Subject& subject, std::size_t triangle, const glm::vec3& shares) const {
+    const motion::Mesh& mesh = subject.character.mesh;
+    const std::uint32_t* corners = &mesh.indices[3 * triangle];
+    const auto mixed = [&](const auto& value_of) {
+        return shares.x * value_of(corners[0]) + shares.y * value_of(corners[1]) + shares.z * value_of(corners[2]);
+    };
+    glm::vec3 color = mixed([&](std::uint32_t vertex) {
+        return linear(mesh.colors[vertex]) * linear(subject.palette[static_cast<std::size_t>(mesh.tints[vertex])]);
+    });
+    if (const std::uint8_t texture = mesh.texture_ids[corners[0]]; texture != motion::no_texture)
+        color *= texture_color(mesh.textures[texture], mixed([&](std::uint32_t vertex) { return mesh.uvs[vertex]; }));
+    return lit(color, mixed([&](std::uint32_t vertex) { return subject.pose.normals[vertex]; }), mesh.double_sided);
+}
+
 void Canvas::draw_mesh(const Subject& subject, std::optional<glm::vec3> flat) {
     const motion::Mesh& mesh = subject.character.mesh;
     for (std::size_t triangle = 0; triangle < mesh.triangle_count(); ++triangle) {
-        std::array<std::uint32_t, 3> corners{};
-        std::array<glm::vec3, 3> at, colors;
-        for (std::size_t k = 0; k < 3; ++k) {
-            corners[k] = mesh.indices[3 * triangle + k];
-            at[k] = to_samples(subject.pose.positions[corners[k]]);
-            colors[k] = linear(mesh.colors[corners[k]]) *
-                        linear(subject.palette[static_cast<std::size_t>(mesh.tints[corners[k]])]);
-        }
-        const auto shade = [&](const glm::vec3& shares) {
-            if (flat) return *flat;
-            const auto mixed = [&](const auto& values) {
-                return shares.x * values[corners[0]] + shares.y * values[corners[1]] + shares.z * values[corners[2]];
-            };
-            glm::vec3 color = shares.x * colors[0] + shares.y * colors[1] + shares.z * colors[2];
-            if (const std::uint8_t texture = mesh.texture_ids[corners[0]]; texture != motion::no_texture)
-                color *= texture_color(mesh.textures[texture], mixed(mesh.uvs));
-            return lit(color, mixed(subject.pose.normals), mesh.double_sided);
-        };
-        const auto side = [](const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
-            return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-        };
-        const float area = side(at[0], at[1], at[2]);
+        std::array<glm::vec3, 3> at;
+        for (std::size_t k = 0; k < 3; ++k) at[k] = to_samples(subject.pose.positions[mesh.indices[3 * triangle + k]]);
+        const float area = turn(at[0], at[1], at[2]);
         if (!(std::abs(area) > 0)) continue;
         const glm::vec3 low = glm::min(glm::min(at[0], at[1]), at[2]), high = glm::max(glm::max(at[0], at[1]), at[2]);
         const int last_x = std::min(static_cast<int>(high.x), width_ - 1);
@@ -109,9 +112,10 @@ void Canvas::draw_mesh(const Subject& subject, std::optional<glm::vec3> flat) {
             for (int x = std::max(static_cast<int>(low.x), 0); x <= last_x; ++x) {
                 const glm::vec3 here(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 0);
                 const glm::vec3 shares =
-                    glm::vec3(side(at[1], at[2], here), side(at[2], at[0], here), side(at[0], at[1], here)) / area;
+                    glm::vec3(turn(at[1], at[2], here), turn(at[2], at[0], here), turn(at[0], at[1], here)) / area;
                 if (shares.x < 0 || shares.y < 0 || shares.z < 0) continue;
-                put(x, y, glm::dot(shares, glm::vec3(at[0].z, at[1].z, at[2].z)), shade(shares));
+                put(x, y, glm::dot(shares, glm::vec3(at[0].z, at[1].z, at[2].z)),
+                    flat ? *flat : surface_color(subject, triangle, shares), static_cast<std::uint32_t>(triangle));
             }
         }
     }
@@ -130,17 +134,22 @@ void Canvas::draw_points(const Subject& subject, const pointsample::PointModel& 
         for (int y = std::max(static_cast<int>(std::floor(at.y - reach)), 0); y <= last_y; ++y) {
             for (int x = std::max(static_cast<int>(std::floor(at.x - reach)), 0); x <= last_x; ++x) {
                 const float dx = static_cast<float>(x) + 0.5f - at.x, dy = static_cast<float>(y) + 0.5f - at.y;
-                if (dx * dx + dy * dy <= reach * reach) put(x, y, at.z + lift, color);
+                if (dx * dx + dy * dy <= reach * reach) put(x, y, at.z + lift, color, no_triangle);
             }
         }
     }
 }
 
-bool Canvas::sees(const glm::vec3& spot, float tolerance) const {
-    const glm::vec3 at = to_samples(spot);
-    const int x = static_cast<int>(std::floor(at.x)), y = static_cast<int>(std::floor(at.y));
-    if (x < 0 || x >= width_ || y < 0 || y >= height_) return false;
-    return depths_[static_cast<std::size_t>(y) * width_ + x] <= at.z + tolerance;
+bool Canvas::shows(const Subject& subject, std::uint32_t triangle, const glm::vec3& spot) const {
+    const glm::ivec2 at = glm::floor(to_samples(spot));
+    if (at.x < 0 || at.x >= width_ || at.y < 0 || at.y >= height_) return false;
+    if (triangles_[static_cast<std::size_t>(at.y) * width_ + at.x] != triangle) return false;
+    constexpr float grazing = 0.25f;  // sine
+    const auto corner = [&](std::size_t k) {
+        return subject.pose.positions[subject.character.mesh.indices[std::size_t{3} * triangle + k]];
+    };
+    const glm::vec3 normal = glm::normalize(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
+    return std::abs(glm::dot(normal, view_.toward)) > grazing;
 }
 
 render::Image Canvas::image() const {
@@ -159,22 +168,22 @@ render::Image Canvas::image() const {
     return out;
 }
 
-std::vector<glm::vec3> seen_spots(const Subject& subject, std::span<const glm::vec3> spots) {
+std::vector<glm::vec3> seen_spots(const Subject& subject, const Spots& spots) {
     constexpr int directions = 96;
-    constexpr float height_px = 120, tolerance = 0.004f;  // of the height: a slope's over two samples
-    std::vector<char> seen(spots.size());
+    constexpr float height_px = 300;
+    std::vector<char> seen(spots.positions.size());
     for (int i = 0; i < directions; ++i) {
         // A spiral from pole to pole: nearly even on the sphere.
         const float elevation = std::asin((2 * static_cast<float>(i) + 1) / directions - 1);
         const float azimuth = static_cast<float>(i) * std::numbers::pi_v<float> * (3 - std::sqrt(5.0f));
         Canvas canvas(view_of(subject.bounds, azimuth, elevation, height_px / subject.height(), 1));
         canvas.draw_mesh(subject, glm::vec3(0));
-        for (std::size_t k = 0; k < spots.size(); ++k)
-            if (!seen[k]) seen[k] = canvas.sees(spots[k], tolerance * subject.height());
+        for (std::size_t k = 0; k < seen.size(); ++k)
+            if (!seen[k]) seen[k] = canvas.shows(subject, spots.triangles[k], spots.positions[k]);
     }
     std::vector<glm::vec3> kept;
-    for (std::size_t k = 0; k < spots.size(); ++k)
-        if (seen[k]) kept.push_back(spots[k]);
+    for (std::size_t k = 0; k < seen.size(); ++k)
+        if (seen[k]) kept.push_back(spots.positions[k]);
     return kept;
 }
 

@@ -3,13 +3,14 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "pointsample/point_model.h"
 #include "render/image.h"
+#include "tests/bench/closeness.h"
 #include "tests/bench/subject.h"
 
 namespace bench {
@@ -38,24 +39,27 @@ public:
     void draw_points(const Subject& subject, const pointsample::PointModel& model, std::size_t count, float radius,
                      float lift = 0);
 
-    // Nothing drawn is nearer to the eye than `spot` by over `tolerance` [units]; false outside of the picture.
-    bool sees(const glm::vec3& spot, float tolerance) const;
+    // Whether the mesh's triangle is in front where the spot is drawn, and not seen at a grazing angle, where a sample
+    // is long.
+    bool shows(const Subject& subject, std::uint32_t triangle, const glm::vec3& spot) const;
 
     render::Image image() const;
 
 private:
     glm::vec3 to_samples(const glm::vec3& position) const;  // x right, y down [samples], z toward the eye [units]
-    void put(int x, int y, float depth, const glm::vec3& color);
+    void put(int x, int y, float depth, const glm::vec3& color, std::uint32_t triangle);
+    glm::vec3 surface_color(const Subject& subject, std::size_t triangle, const glm::vec3& shares) const;
     glm::vec3 lit(const glm::vec3& color, glm::vec3 normal, bool double_sided) const;
 
     View view_;
     int width_, height_;  // [samples]
     std::vector<glm::vec3> colors_;
     std::vector<float> depths_;
+    std::vector<std::uint32_t> triangles_;  // or no_triangle
 };
 
 // Those of the spots of the subject's surface that are seen from one of many directions all around, in their order.
-std::vector<glm::vec3> seen_spots(const Subject& subject, std::span<const glm::vec3> spots);
+std::vector<glm::vec3> seen_spots(const Subject& subject, const Spots& spots);
 
 // Copies `part` into `sheet` at (x, y) [px]; it must fit.
 void paste(render::Image& sheet, const render::Image& part, int x, int y);

@@ -41,9 +41,10 @@ public:
 
     float nearest_distance(const glm::vec3& spot) const {
         const glm::ivec3 middle = cube_of(spot);
+        const int most_cubes = std::max({cubes_.x, cubes_.y, cubes_.z});
         float nearest = std::numeric_limits<float>::infinity();
         // What is farther out than `ring` cubes is farther away than as many edges.
-        for (int ring = 0; nearest > static_cast<float>(ring - 1) * edge_; ++ring) {
+        for (int ring = 0; ring < most_cubes && nearest > static_cast<float>(ring - 1) * edge_; ++ring) {
             const glm::ivec3 from = glm::max(middle - ring, 0), to = glm::min(middle + ring, cubes_ - 1);
             for (int z = from.z; z <= to.z; ++z) {
                 for (int y = from.y; y <= to.y; ++y) {
@@ -63,7 +64,7 @@ public:
 private:
     // The nearest cube, of spots outside too.
     glm::ivec3 cube_of(const glm::vec3& spot) const {
-        return glm::clamp(glm::ivec3(glm::floor((spot - low_) / edge_)), glm::ivec3(0), cubes_ - 1);
+        return glm::ivec3(glm::clamp((spot - low_) / edge_, glm::vec3(0), glm::vec3(cubes_ - 1)));
     }
     std::size_t index(const glm::ivec3& cube) const {
         return (static_cast<std::size_t>(cube.z) * cubes_.y + cube.y) * cubes_.x + cube.x;
@@ -96,20 +97,21 @@ double distance_to_triangle(const glm::dvec3& p, const Triangle& triangle) {
 
 }  // namespace
 
-std::vector<glm::vec3> random_surface_points(const motion::Mesh& mesh, std::span<const glm::vec3> positions,
-                                             std::size_t count, std::uint64_t seed) {
+Spots random_spots(const motion::Mesh& mesh, std::span<const glm::vec3> positions, std::size_t count,
+                   std::uint64_t seed) {
     const std::vector<Triangle> triangles = triangles_of(mesh, positions);
     std::vector<double> ends;
     double area = 0;
     for (const auto& [a, b, c] : triangles) ends.push_back(area += 0.5 * glm::length(glm::cross(b - a, c - a)));
     std::mt19937_64 engine(seed);
     const auto unit = [&] { return static_cast<double>(engine() >> 11) * 0x1p-53; };
-    std::vector<glm::vec3> spots;
+    Spots spots;
     for (std::size_t i = 0; i < count; ++i) {
         const auto end = std::upper_bound(ends.begin(), ends.end() - 1, unit() * area);
-        const auto& [a, b, c] = triangles[static_cast<std::size_t>(end - ends.begin())];
+        spots.triangles.push_back(static_cast<std::uint32_t>(end - ends.begin()));
+        const auto& [a, b, c] = triangles[spots.triangles.back()];
         const double root = std::sqrt(unit()), share = unit();
-        spots.emplace_back(a * (1 - root) + b * (root * (1 - share)) + c * (root * share));
+        spots.positions.emplace_back(a * (1 - root) + b * (root * (1 - share)) + c * (root * share));
     }
     return spots;
 }

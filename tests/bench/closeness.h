@@ -12,9 +12,15 @@
 
 namespace bench {
 
+// Points of a mesh, one element a point.
+struct Spots {
+    std::vector<glm::vec3> positions;
+    std::vector<std::uint32_t> triangles;
+};
+
 // `count` independent points of the posed mesh, area-uniform. At least one triangle must have an area.
-std::vector<glm::vec3> random_surface_points(const motion::Mesh& mesh, std::span<const glm::vec3> positions,
-                                             std::size_t count, std::uint64_t seed);
+Spots random_spots(const motion::Mesh& mesh, std::span<const glm::vec3> positions, std::size_t count,
+                   std::uint64_t seed);
 
 // Distances of spots of a surface to the nearest of some points [units].
 struct Covering {

@@ -106,8 +106,8 @@ class Report {
 public:
     explicit Report(const Subject& subject) : subject_(subject), pictures_(subject) {
         constexpr std::size_t spots = 400'000;
-        spots_ = bench::seen_spots(
-            subject, bench::random_surface_points(subject.character.mesh, subject.pose.positions, spots, 1));
+        spots_ =
+            bench::seen_spots(subject, bench::random_spots(subject.character.mesh, subject.pose.positions, spots, 1));
         std::printf("# %s: %zu triangles, %zu of %zu spots of its surface can be seen\n",
                     subject.character.name.c_str(), subject.character.mesh.triangle_count(), spots_.size(), spots);
         std::puts("kind,points,seconds,covering_max,covering_99,chamfer,difference,flip");

@@ -59,13 +59,13 @@ render::Image dots(const Subject& subject, const View& view, const PointModel& m
 }
 
 void draw_prefixes(const Subject& subject, const std::string& path) {
-    constexpr float height_px = 380;
-    constexpr int margin = 8;
+    constexpr float height_px = 360;
+    constexpr int margin = 24;
     constexpr std::size_t spots = 100'000;
     const View view = bench::view_of(subject.bounds, azimuth, elevation, height_px / subject.height(), margin);
     const PointModel model = sample(subject, 16384, Order::progressive);
-    const std::vector<glm::vec3> surface = bench::seen_spots(
-        subject, bench::random_surface_points(subject.character.mesh, subject.pose.positions, spots, 1));
+    const std::vector<glm::vec3> surface =
+        bench::seen_spots(subject, bench::random_spots(subject.character.mesh, subject.pose.positions, spots, 1));
     std::vector<render::Image> closed, bare;
     for (const std::size_t count : {16, 64, 256, 1024, 4096, 16384}) {
         const auto prefix = std::span(model.positions).first(count);
@@ -73,7 +73,7 @@ void draw_prefixes(const Subject& subject, const std::string& path) {
         Canvas canvas(view, paper);
         canvas.draw_points(subject, model, count, radius);
         closed.push_back(canvas.image());
-        constexpr float dot_share = 0.3f, largest_dot_px = 4;
+        constexpr float dot_share = 0.4f, largest_dot_px = 4;
         bare.push_back(
             dots(subject, view, model, count, std::min(dot_share * radius * view.pixels_per_unit, largest_dot_px)));
     }
