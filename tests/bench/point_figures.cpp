@@ -22,12 +22,12 @@ namespace {
 
 constexpr const char* usage =
     "usage: point_figures progressive|even|uniform POINTS all|visible SURFACE...\n"
-    "SURFACE: sphere, square, huge, plate, bumpy, scan, or a glTF file, which is taken at rest\n"
+    "SURFACE: sphere, plane, huge, plate, bumpy, scan, or a glTF file, which is taken at rest\n"
     "all|visible: whether hidden points count\n";
 
 const std::map<std::string, std::function<motion::Mesh()>, std::less<>> surfaces{
-    {"sphere", tests::make_ball},          {"square", tests::make_square}, {"huge", tests::make_huge_among_tiny},
-    {"plate", tests::make_cube_and_plate}, {"bumpy", tests::make_bumpy},   {"scan", tests::make_scan}};
+    {"sphere", tests::make_ball},          {"plane", tests::make_plane}, {"huge", tests::make_huge_among_tiny},
+    {"plate", tests::make_cube_and_plate}, {"bumpy", tests::make_bumpy}, {"scan", tests::make_scan}};
 
 motion::Mesh at_rest(const std::string& file) {
     motion::Character character = pointsample::load_gltf(file);

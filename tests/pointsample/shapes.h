@@ -1,6 +1,7 @@
 // Meshes with known areas and normals.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <map>

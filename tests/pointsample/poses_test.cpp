@@ -1,0 +1,103 @@
+// Models that are to look right in several poses.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "pointsample/sample.h"
+#include "pointsample/surface.h"
+#include "tests/pointsample/shapes.h"
+
+namespace {
+
+using pointsample::Order;
+using pointsample::PointModel;
+using pointsample::PosedMesh;
+
+// Each triangle with vertices of its own, so that it can be stretched by itself.
+motion::Mesh apart(const motion::Mesh& mesh) {
+    motion::Mesh out;
+    for (const std::uint32_t i : mesh.indices) {
+        out.indices.push_back(static_cast<std::uint32_t>(out.positions.size()));
+        out.positions.push_back(mesh.positions[i]);
+        out.normals.push_back(mesh.normals[i]);
+    }
+    tests::fill_looks(out);
+    return out;
+}
+
+std::vector<PosedMesh> poses_of(const motion::Mesh& mesh, std::size_t count) {
+    std::vector<PosedMesh> poses;
+    while (poses.size() < count) poses.push_back({mesh.positions, mesh.normals});
+    return poses;
+}
+
+bool is_upper(const motion::Mesh& mesh, std::size_t triangle) {
+    const auto y = [&](std::size_t k) { return mesh.positions[mesh.indices[3 * triangle + k]].y; };
+    return y(0) + y(1) + y(2) > 0;
+}
+
+TEST(Poses, AHalfThatStretchesToTwiceGetsTwoThirds) {
+    const motion::Mesh sphere = apart(tests::make_sphere(1, 4));
+    std::vector<PosedMesh> poses = poses_of(sphere, 2);
+    for (std::size_t i = 0; i < sphere.indices.size(); ++i)
+        if (is_upper(sphere, i / 3)) poses[1].positions[i] *= std::sqrt(2.0f);
+    for (const Order order : {Order::progressive, Order::even, Order::uniform}) {
+        const PointModel model = pointsample::sample(sphere, poses, {8000, 1, order, false});
+        double upper = 0;
+        for (std::size_t n = 0; n < model.size(); ++n) {
+            upper += is_upper(sphere, model.surface[n].triangle);
+            const double size = static_cast<double>(n + 1), due = size * 2 / 3;
+            // An even order is off by a part of what lies along the equator, a random one by its deviation.
+            const double slack = order == Order::uniform ? 4 * std::sqrt(size * 2 / 9) : std::sqrt(size);
+            ASSERT_NEAR(upper, due, 3 + slack) << n;
+        }
+        EXPECT_NEAR(upper / 8000, 2.0 / 3, 0.02);
+        EXPECT_NEAR(model.area, 4 * std::numbers::pi, 0.1);  // the first pose's
+    }
+}
+
+TEST(Poses, ShrinkingTakesNoPointsAway) {
+    const motion::Mesh sphere = apart(tests::make_sphere(1, 3));
+    std::vector<PosedMesh> poses = poses_of(sphere, 2);
+    for (glm::vec3& p : poses[1].positions) p *= 0.1f;
+    const pointsample::Surface surface(sphere.indices, poses);
+    for (std::size_t i = 0; i < surface.triangle_count(); ++i) ASSERT_EQ(surface.stretch(i), 1.0f);
+}
+
+TEST(Poses, VerticesThatAreNowhereStretchNothing) {
+    const motion::Mesh sphere = tests::make_sphere(1, 3);
+    std::vector<PosedMesh> poses = poses_of(sphere, 2);
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    for (glm::vec3& p : poses[1].positions) p = glm::vec3(nan);
+    const PointModel model = pointsample::sample(sphere, poses, {1000, 1, Order::progressive, true});
+    EXPECT_EQ(model.size(), 1000u);
+    for (const pointsample::Coverage& at : model.coverage) EXPECT_TRUE(std::isfinite(at.radius));
+}
+
+// A ball in a shell: hidden, unless it comes out in some pose.
+TEST(Poses, WhatIsSeenInOnePoseStays) {
+    motion::Mesh nested = tests::make_sphere(1, 4);
+    const std::size_t shell = nested.triangle_count(), shell_vertices = nested.vertex_count();
+    tests::append(nested, tests::make_sphere(0.5f, 3));
+    std::vector<PosedMesh> poses = poses_of(nested, 3);
+    for (std::size_t i = shell_vertices; i < nested.vertex_count(); ++i) poses[2].positions[i].x += 5;
+    for (const Order order : {Order::progressive, Order::even, Order::uniform}) {
+        const auto inner_points = [&](std::size_t pose_count) {
+            const PointModel model =
+                pointsample::sample(nested, std::span(poses).first(pose_count), {4000, 1, order, true});
+            EXPECT_EQ(model.size(), 4000u);
+            EXPECT_NEAR(static_cast<double>(model.hidden_removed), pose_count < 3 ? 1000 : 0, 150);
+            return std::count_if(model.surface.begin(), model.surface.end(),
+                                 [&](const motion::SurfacePoint& p) { return p.triangle >= shell; });
+        };
+        EXPECT_EQ(inner_points(1), 0);
+        EXPECT_EQ(inner_points(2), 0);
+        EXPECT_NEAR(static_cast<double>(inner_points(3)), 800, 100);  // a fifth of the area
+    }
+}
+
+}  // namespace
