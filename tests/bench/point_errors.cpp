@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <exception>
 #include <numbers>
 #include <span>
@@ -36,8 +36,9 @@ std::vector<std::size_t> counts() {
     return all;
 }
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+// Processor time, which other work on the machine lengthens little; on one thread it is what a clock would show.
+double processor_seconds() {
+    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
 struct TimedModel {
@@ -50,9 +51,9 @@ TimedModel sample(const Subject& subject, std::size_t count, Order order) {
     TimedModel timed;
     std::array<double, runs> seconds{};
     for (double& run : seconds) {
-        const auto start = std::chrono::steady_clock::now();
+        const double start = processor_seconds();
         timed.model = pointsample::sample(subject.character.mesh, {&subject.pose, 1}, {.count = count, .order = order});
-        run = seconds_since(start);
+        run = processor_seconds() - start;
     }
     std::nth_element(seconds.begin(), seconds.begin() + runs / 2, seconds.end());
     timed.seconds = seconds[runs / 2];
