@@ -200,9 +200,11 @@ void PointsFile::check_values() const {
             header.box_min[i] > header.box_max[i])
             fail("a box that is none", "its least before its greatest corner");
     if (!(header.area >= 0.0f) || !std::isfinite(header.area)) fail("no area", "a number from 0");
-    for (const PackedPoint& point : points())
+    for (const PackedPoint& point : points()) {
+        if (point.normal_u == -128 || point.normal_v == -128) fail("a normal beyond -1", "-127 to 127");
         if (point.tint >= motion::tint_count)
             fail("tint " + std::to_string(point.tint), "below " + std::to_string(motion::tint_count));
+    }
     for (const Barycentrics& uv : section_of<Barycentrics>(bytes_, uv_section))
         if (std::uint32_t{uv[0]} + uv[1] > unorm_steps) fail("a point outside its triangle", "u + v of at most 1");
     for (const Weights& weights : section_of<Weights>(bytes_, weight_section))
@@ -254,6 +256,20 @@ PointModel PointsFile::unpack() const {
     model.area = header.area;
     model.hidden_removed = static_cast<std::size_t>(header.hidden_removed);
     return model;
+}
+
+PointModel as_stored(const PointModel& model) {
+    const motion::Bounds box = box_of(model);
+    PointModel stored = model;
+    for (std::size_t i = 0; i < model.size(); ++i) {
+        const PackedPoint point = packed(model, i, box);
+        const glm::vec2 uv = unpack_barycentrics(pack_barycentrics(model.surface[i].u, model.surface[i].v));
+        stored.surface[i] = {model.surface[i].triangle, uv.x, uv.y};
+        stored.positions[i] = position_of(point, box);
+        stored.normals[i] = motion::unpack_normal(motion::OctahedralNormal{point.normal_u, point.normal_v});
+        stored.weights[i] = unpack_weights(pack_weights(model.weights[i]));
+    }
+    return stored;
 }
 
 void write_pts(std::ostream& out, const PointModel& model, const std::string& key) {

@@ -283,6 +283,7 @@ TEST(PointsFileRefuses, LiesWithAChecksumThatFits) {
         return static_cast<std::size_t>(offset);
     };
     EXPECT_NE(refusal(patched(whole, section(1) + 11, std::uint8_t{motion::tint_count})), "");
+    EXPECT_NE(refusal(patched(whole, section(1) + 6, std::int8_t{-128})), "");
     EXPECT_NE(refusal(patched(whole, section(3), ~std::uint32_t{0})), "");
     EXPECT_NE(refusal(patched(whole, section(5), ~std::uint32_t{0})), "");
     EXPECT_NE(refusal(patched(whole, section(6), nan)), "");
