@@ -9,16 +9,17 @@
 
 namespace pointsample {
 
-FarthestOrder farthest_order(Candidates& candidates, std::size_t count, std::size_t first,
+FarthestOrder farthest_order(Candidates& candidates, std::size_t count, std::span<const std::uint32_t> first,
                              std::span<const std::uint32_t> marks, const std::function<void(double)>& progress) {
-    assert(count >= 1 && count <= candidates.count && first < candidates.count);
+    assert(!first.empty() && first.size() <= count && count <= candidates.count);
     constexpr std::size_t progress_step = 1024;
     FarthestTree<false> tree(candidates);
     FarthestOrder order;
     order.candidates.reserve(count);
     order.spacing.reserve(count);
     float spacing = std::numeric_limits<float>::infinity();
-    for (std::size_t next = first;; next = tree.next()) {
+    while (order.candidates.size() < count) {
+        const std::size_t taken = order.candidates.size(), next = taken < first.size() ? first[taken] : tree.next();
         spacing = std::min(spacing, std::sqrt(tree.key(next)));
         order.candidates.push_back(static_cast<std::uint32_t>(next));
         order.spacing.push_back(spacing);
@@ -27,8 +28,8 @@ FarthestOrder farthest_order(Candidates& candidates, std::size_t count, std::siz
         if (order.radius.size() < marks.size() && size == marks[order.radius.size()])
             order.radius.push_back(std::sqrt(std::max(tree.farthest(), 0.0f)));
         if (progress && size % progress_step == 0) progress(static_cast<double>(size) / static_cast<double>(count));
-        if (size == count) return order;
     }
+    return order;
 }
 
 }  // namespace pointsample

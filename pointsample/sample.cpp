@@ -14,8 +14,8 @@
 #include "pointsample/coverage.h"
 #include "pointsample/even.h"
 #include "pointsample/farthest_order.h"
-#include "pointsample/hash.h"
 #include "pointsample/hidden.h"
+#include "pointsample/opening.h"
 #include "pointsample/surface.h"
 #include "pointsample/surface_line.h"
 #include "pointsample/uniform.h"
@@ -131,10 +131,17 @@ Spots spots_of(const VisibleCandidates& from) {
     return spots;
 }
 
-// Where an order begins.
-std::size_t first_candidate(std::size_t count, std::uint64_t seed) {
-    constexpr std::uint64_t last = std::numeric_limits<std::uint64_t>::max();  // no candidate's
-    return static_cast<std::size_t>(unit(hash(seed, last)) * static_cast<double>(count));
+// The nearest-neighbour distance of the densest packing of so many points [units].
+double densest(double area, std::size_t points) {
+    return 2 * std::sqrt(area / (2 * std::numbers::sqrt3 * static_cast<double>(points)));
+}
+
+// With `area` [units^2] to cover. What the opening leaves is room for twice as many even points.
+std::vector<std::uint32_t> opening_of(const Job& job, const Candidates& candidates, double area) {
+    constexpr double even = 0.72;  // of the densest packing's distance
+    const double least_apart = even * densest(area, 2 * opening_size) / job.surface.unit();
+    return opening(candidates, std::min(job.options.count, opening_size), static_cast<float>(least_apart),
+                   job.options.seed);
 }
 
 void take(const FarthestOrder& order, const Candidates& candidates, double unit, Draft& draft) {
@@ -151,7 +158,7 @@ Draft progressive(const Job& job) {
     const std::size_t count = job.options.count;
     VisibleCandidates from = make_visible_candidates(job, candidate_count(count, 16), job.progress.part(0, 0.3));
     const FarthestOrder order =
-        farthest_order(from.candidates, count, first_candidate(from.candidates.count, job.options.seed),
+        farthest_order(from.candidates, count, opening_of(job, from.candidates, from.visible_area()),
                        coverage_marks(count), job.progress.part(0.3, 0.9));
     Draft draft;
     draft.hidden_removed = hidden_beside(count, from);
@@ -172,18 +179,18 @@ Draft even(const Job& job) {
     draft.spots = spots_of(from);
 
     constexpr double wanted = 0.76;  // of the densest packing's
-    const double densest = 2 * std::sqrt(from.visible_area() / (2 * std::numbers::sqrt3 * static_cast<double>(count)));
-    FarthestOrder order = farthest_order(candidates, count, first_candidate(candidates.count, job.options.seed), {},
-                                         job.progress.part(0.2, 0.4));
+    const double area = from.visible_area();
+    FarthestOrder order =
+        farthest_order(candidates, count, opening_of(job, candidates, area), {}, job.progress.part(0.2, 0.4));
     const std::vector<std::uint32_t> points =
-        make_even(candidates, std::move(order.candidates), static_cast<float>(wanted * densest / job.surface.unit()),
-                  job.progress.part(0.4, 0.9));
+        make_even(candidates, std::move(order.candidates),
+                  static_cast<float>(wanted * densest(area, count) / job.surface.unit()), job.progress.part(0.4, 0.9));
     // What was moved is in no order any more.
     std::vector<char> kept(candidates.count, 0);
     for (const std::uint32_t point : points) kept[point] = 1;
     candidates.keep(0, kept);
     candidates.pad();
-    order = farthest_order(candidates, count, first_candidate(count, job.options.seed), {});
+    order = farthest_order(candidates, count, opening_of(job, candidates, area), {});
     take(order, candidates, job.surface.unit(), draft);
     return draft;
 }
