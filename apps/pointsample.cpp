@@ -5,10 +5,11 @@
 #include <cmath>
 #include <cstdint>
 #include <exception>
-#include <iomanip>
+#include <filesystem>
 #include <limits>
+#include <nlohmann/json.hpp>
+#include <numeric>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -18,43 +19,72 @@
 #include "apps/program.h"
 #include "apps/progress.h"
 #include "motion/pose.h"
-#include "pointsample/gltf.h"
+#include "pointsample/mesh_file.h"
+#include "pointsample/model_key.h"
 #include "pointsample/point_model.h"
 #include "pointsample/points_file.h"
 #include "pointsample/sample.h"
 
 namespace {
 
-constexpr std::uint64_t most_points = 100'000'000;
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::uint64_t most_points = 100'000'000;         // 7 GB
+constexpr std::uint64_t most_ordered_points = 10'000'000;  // 4 GB
+
+enum class Format { ply_binary, ply_ascii, pts };
 
 struct Options {
     std::string input;
     std::uint64_t points = 0;  // [1, most_points]
     std::string output;
+    bool ascii = false;
     std::string pose;  // empty: the rest pose
-    bool visible_only = false;
+    bool all_clips = false, visible_only = false, even = false, uniform = false;
     std::uint64_t seed = 1;
     std::string stats;
+
+    pointsample::Order order() const {
+        if (uniform) return pointsample::Order::uniform;
+        return even ? pointsample::Order::even : pointsample::Order::progressive;
+    }
+    Format format() const {
+        if (fs::path(output).extension() == ".pts") return Format::pts;
+        return ascii ? Format::ply_ascii : Format::ply_binary;
+    }
 };
 
 constexpr const char* examples = R"(Examples:
   pointsample Fox.glb --points 10000 --out fox.ply
   pointsample Fox.glb --points 10000 --out fox.ply --pose Run@0.35 --visible-only --stats -
-  pointsample Fox.glb --points 500 --out - --pose 2@0.35 > fox.ply
+  pointsample Fox.glb --points 4096 --out fox.pts --all-clips --visible-only
+  pointsample scan.obj --points 100000 --even --out even.ply
+  pointsample Fox.glb --points 500 --out - --ascii --pose 2@0.35 | head
 
-The PLY is binary: x y z nx ny nz red green blue a point, in the file's units. Any first part of it covers the whole
-surface evenly, and the same arguments give the same bytes.
+Any first part of the points is an even sample of the whole surface, unless --even or --uniform. A .ply has x y z nx ny nz
+red green blue a point, in the file's units; a .pts is packed, and made to be mapped (docs/pts-format.md). The same arguments
+give the same bytes.
 )";
 
 void add_options(CLI::App& app, Options& options) {
     apps::describe(app, examples);
-    app.add_option("IN", options.input, "Character, glTF 2.0: .glb or .gltf")->required();
+    app.add_option("IN", options.input, "Character or mesh: .glb, .gltf, .obj or .ply")->required();
     app.add_option("--points", options.points, "How many points, exactly")
         ->required()
         ->check(apps::whole_number(1, most_points));
-    app.add_option("--out", options.output, "The points as PLY (- = stdout)")->required();
-    app.add_option("--pose", options.pose, "CLIP@SECONDS, the clip by name or index; default: the rest pose");
+    app.add_option("--out", options.output, "The points: OUT.ply or OUT.pts (- = stdout, as PLY)")->required();
+    app.add_flag("--ascii", options.ascii, "Write the PLY as text");
+    auto* pose =
+        app.add_option("--pose", options.pose, "CLIP@SECONDS, the clip by name or index; default: the rest pose");
+    app.add_flag(
+           "--all-clips", options.all_clips,
+           "Make the points for all clips: more where the surface stretches, and hidden is what is so in all of them")
+        ->excludes(pose);
     app.add_flag("--visible-only", options.visible_only, "Replace points that cannot be seen from outside");
+    auto* even = app.add_flag("--even", options.even, "One sample of just so many points, as even as can be");
+    app.add_flag("--uniform", options.uniform, "Each point drawn by itself: fast, and as uneven as chance")
+        ->excludes(even);
     app.add_option("--seed", options.seed, "Another seed, other points")
         ->check(apps::whole_number(0, std::numeric_limits<std::uint64_t>::max()))
         ->capture_default_str();
@@ -95,17 +125,36 @@ const motion::Clip& find_clip(const motion::Character& character, const std::str
                                  : "an index below " + std::to_string(character.clips.size()) + " or one of " + names));
 }
 
-pointsample::PosedMesh posed(const motion::Character& character, const std::string& choice) {
-    motion::Pose pose;
-    if (choice.empty()) {
-        motion::evaluate_rest(character, pose);
-    } else {
-        const PoseChoice chosen = parse_pose(choice);
-        motion::evaluate(character, find_clip(character, chosen.clip), chosen.seconds, pose);
+// The first is the pose that the points are given in.
+std::vector<pointsample::PosedMesh> poses_of(const motion::Character& character, const Options& options) {
+    if (options.pose.empty()) {
+        std::vector<pointsample::PosedMesh> poses = pointsample::spread_poses(character, {}, 1);
+        if (!options.all_clips) return poses;
+        std::vector<int> clips(character.clips.size());
+        std::iota(clips.begin(), clips.end(), 0);
+        constexpr std::size_t poses_each = 8;
+        for (pointsample::PosedMesh& pose : pointsample::spread_poses(character, clips, poses_each * clips.size()))
+            poses.push_back(std::move(pose));
+        return poses;
     }
-    pointsample::PosedMesh surface;
-    motion::skin(character.mesh, pose, surface.positions, surface.normals);
-    return surface;
+    const PoseChoice chosen = parse_pose(options.pose);
+    motion::Pose pose;
+    motion::evaluate(character, find_clip(character, chosen.clip), chosen.seconds, pose);
+    std::vector<pointsample::PosedMesh> poses(1);
+    motion::skin(character.mesh, pose, poses[0].positions, poses[0].normals);
+    return poses;
+}
+
+void write_points(std::ostream& out, const pointsample::PointModel& model, const Options& options,
+                  const std::string& key) {
+    switch (options.format()) {
+        case Format::pts:
+            return pointsample::write_pts(out, model, key);
+        case Format::ply_ascii:
+            return pointsample::write_ply(out, model, pointsample::PlyFormat::ascii);
+        case Format::ply_binary:
+            return pointsample::write_ply(out, model, pointsample::PlyFormat::binary_little_endian);
+    }
 }
 
 double peak_megabytes() {
@@ -114,19 +163,26 @@ double peak_megabytes() {
     return static_cast<double>(usage.ru_maxrss) / 1024.0;  // Linux counts KiB
 }
 
-std::string json_of(const glm::vec3& v) {
-    std::ostringstream out;
-    out << std::setprecision(9) << '[' << v.x << ", " << v.y << ", " << v.z << ']';
-    return out.str();
+Json json_of(const glm::vec3& v) {
+    return {v.x, v.y, v.z};
 }
 
-void write_stats(std::ostream& out, const motion::Mesh& mesh, const motion::Bounds& bounds,
-                 const pointsample::PointModel& model, double seconds) {
-    out << std::setprecision(9) << "{\n  \"triangles\": " << mesh.triangle_count()
-        << ",\n  \"vertices\": " << mesh.vertex_count() << ",\n  \"area\": " << model.area
-        << ",\n  \"bounds_min\": " << json_of(bounds.min) << ",\n  \"bounds_max\": " << json_of(bounds.max)
-        << ",\n  \"points\": " << model.size() << ",\n  \"hidden_removed\": " << model.hidden_removed
-        << ",\n  \"seconds\": " << seconds << ",\n  \"peak_mb\": " << peak_megabytes() << "\n}\n";
+Json stats_of(const motion::Mesh& mesh, const motion::Bounds& bounds, const pointsample::PointModel& model,
+              double seconds) {
+    Json stats;
+    stats["triangles"] = mesh.triangle_count();
+    stats["vertices"] = mesh.vertex_count();
+    stats["area"] = model.area;
+    stats["bounds_min"] = json_of(bounds.min);
+    stats["bounds_max"] = json_of(bounds.max);
+    stats["points"] = model.size();
+    stats["hidden_removed"] = model.hidden_removed;
+    Json& coverage = stats["coverage"] = Json::array();
+    for (const pointsample::Coverage& step : model.coverage)
+        coverage.push_back({{"points", step.points}, {"radius", step.radius}});
+    stats["seconds"] = seconds;
+    stats["peak_mb"] = peak_megabytes();
+    return stats;
 }
 
 void run(const Options& options) {
@@ -136,20 +192,22 @@ void run(const Options& options) {
     std::optional<apps::OutputFile> stats;
     if (!options.stats.empty()) stats.emplace(options.stats);
 
-    const motion::Character character = pointsample::load_gltf(options.input);
-    const pointsample::PosedMesh surface = posed(character, options.pose);
+    const motion::Character character = pointsample::load_mesh(options.input);
+    const std::vector<pointsample::PosedMesh> poses = poses_of(character, options);
+    const pointsample::SampleOptions wanted{static_cast<std::size_t>(options.points), options.seed, options.order(),
+                                            options.visible_only};
     pointsample::PointModel model;
     {
         apps::ProgressBar bar("Sampling " + character.name);
-        model = pointsample::sample(character.mesh, {&surface, 1},
-                                    {static_cast<std::size_t>(options.points), options.seed,
-                                     pointsample::Order::progressive, options.visible_only},
-                                    [&](double fraction) { bar(fraction); });
+        model = pointsample::sample(character.mesh, poses, wanted, [&](double fraction) { bar(fraction); });
     }
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    pointsample::write_ply(output.stream(), model, pointsample::PlyFormat::binary_little_endian);
+    const std::string key =
+        options.format() == Format::pts ? pointsample::model_key(character.mesh, poses, wanted) : std::string();
+    write_points(output.stream(), model, options, key);
     if (stats) {
-        write_stats(stats->stream(), character.mesh, motion::bounds_of(surface.positions), model, seconds.count());
+        const motion::Bounds bounds = motion::bounds_of(poses.front().positions);
+        stats->stream() << stats_of(character.mesh, bounds, model, seconds.count()).dump(2) << '\n';
     }
     output.commit();
     if (stats) stats->commit();
@@ -158,6 +216,14 @@ void run(const Options& options) {
 // What CLI11 cannot see; throws std::invalid_argument.
 void check(const Options& options) {
     if (!options.pose.empty()) parse_pose(options.pose);
+    const std::string extension = fs::path(options.output).extension();
+    if (options.output != "-" && extension != ".ply" && extension != ".pts" && !extension.empty())
+        throw apps::wrong_argument("--out", "'" + options.output + "'", "a name that ends in .ply or .pts");
+    if (options.ascii && options.format() == Format::pts)
+        throw apps::wrong_argument("--ascii", "'" + options.output + "'", "a .ply");
+    if (!options.uniform && options.points > most_ordered_points)
+        throw apps::wrong_argument("--points", std::to_string(options.points),
+                                   "at most " + std::to_string(most_ordered_points) + " without --uniform");
     const apps::Place inputs[] = {{"IN", options.input}};
     const apps::Place outputs[] = {{"--out", options.output}, {"--stats", options.stats}};
     apps::check_places(inputs, outputs);

@@ -74,7 +74,7 @@ public:
           path_from_file_(load_path(options.camera)),
           surface_(options),
           device_(render::read_device()),
-          stage_(build_stage(options.characters, options.people, options.seed)),
+          stage_(build_stage(options.characters, options.people, options.seed, PointCache(options.cache))),
           path_(path_from_file_ ? *path_from_file_ : scene::preset_path(options.camera, stage_->plan)),
           renderer_(stage_->structure, stage_->plan, stage_->figure_assets(), options.width, options.height),
           selector_(stage_->crowd, stage_->figures()),

@@ -61,12 +61,17 @@ void add_scene_options(CLI::App& app, StadiumOptions& options) {
         ->capture_default_str();
     app.add_option("--pour-in", options.pour_in, "Seconds in which the people come in (default: all are there)")
         ->check(number_over(0, 1e6));
-    app.add_option("--character", options.characters, "glTF or GLB file to fill the stadium with; several mix");
+    app.add_option("--character", options.characters,
+                   "glTF, GLB, OBJ or PLY file to fill the stadium with; several mix");
     app.add_option("--camera", options.camera, "still, close, medium, remote, roam or a FILE.json with keys")
         ->capture_default_str();
     app.add_option("--seed", options.seed, "Who sits where, looks how and does what")
         ->check(whole_number(0, any))
         ->capture_default_str();
+    app.add_option_function<std::string>(
+           "--cache", [&](const std::string& text) { options.cache = text == "none" ? "" : text; },
+           "Folder that keeps point models between runs, or none")
+        ->default_str(options.cache.string());
     app.add_flag("--dt", options.fixed_step, "Advance the scene 1/60 s a frame in a window too");
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/point_cache.h"
 #include "sfsm/controller.h"
 #include "sfsm/decision.h"
 #include "sfsm/target.h"
@@ -19,13 +20,14 @@ struct StadiumOptions {
     std::vector<std::filesystem::path> characters;
     sfsm::TargetSchedule target = sfsm::TargetSchedule::parse(sfsm::default_target);
     std::string law = std::string(sfsm::law_names().front());
-    std::optional<sfsm::State> state;       // empty: the law decides
-    std::optional<double> splat_size;       // [px] of a fixed state 2
-    std::optional<double> motion_distance;  // [m] of a fixed state 1 or 2
-    double pour_in = 0;                     // [s] in which people come in; 0: all are there
-    std::string camera = "roam";            // a preset or a path file
-    std::optional<std::int64_t> frames;     // empty: 300 without a window, until it is closed with one
-    int width = 1280, height = 720;         // [px]
+    std::optional<sfsm::State> state;               // empty: the law decides
+    std::optional<double> splat_size;               // [px] of a fixed state 2
+    std::optional<double> motion_distance;          // [m] of a fixed state 1 or 2
+    double pour_in = 0;                             // [s] in which people come in; 0: all are there
+    std::filesystem::path cache = default_cache();  // of point models; empty: none
+    std::string camera = "roam";                    // a preset or a path file
+    std::optional<std::int64_t> frames;             // empty: 300 without a window, until it is closed with one
+    int width = 1280, height = 720;                 // [px]
     std::uint64_t seed = 1;
     bool headless = false;
     bool fixed_step = false;

@@ -4,7 +4,9 @@
 
 #include "apps/interrupt.h"
 #include "apps/progress.h"
-#include "pointsample/gltf.h"
+#include "pointsample/mesh_file.h"
+#include "pointsample/model_key.h"
+#include "pointsample/posed_mesh.h"
 #include "pointsample/sample.h"
 #include "scene/cast.h"
 #include "scene/person.h"
@@ -24,20 +26,23 @@ std::size_t point_count(const motion::Mesh& mesh) {
 
 // The first pose is the one that most people are seen in, where limbs are apart.
 pointsample::PointModel sample_points(const motion::Character& character, const std::vector<int>& clips,
-                                      std::uint64_t seed) {
-    constexpr std::size_t poses = 16;
+                                      std::uint64_t seed, const PointCache& cache) {
+    constexpr std::size_t pose_count = 16;
     pointsample::SampleOptions options;
     options.count = point_count(character.mesh);
     options.seed = seed;
     throw_if_interrupted();
-    ProgressBar bar("Sampling " + character.name);
-    return pointsample::sample(character.mesh, pointsample::spread_poses(character, clips, poses), options,
-                               [&](double f) { bar(f); });
+    const std::vector<pointsample::PosedMesh> poses = pointsample::spread_poses(character, clips, pose_count);
+    return cache.get(pointsample::model_key(character.mesh, poses, options), [&] {
+        ProgressBar bar("Sampling " + character.name);
+        return pointsample::sample(character.mesh, poses, options, [&](double f) { bar(f); });
+    });
 }
 
-void add_character(Stage& stage, motion::Character character, std::uint64_t seed, std::size_t byte_budget) {
+void add_character(Stage& stage, motion::Character character, std::uint64_t seed, std::size_t byte_budget,
+                   const PointCache& cache) {
     scene::Casting casting = scene::cast(character);
-    stage.points.push_back(sample_points(character, casting.clips, seed));
+    stage.points.push_back(sample_points(character, casting.clips, seed, cache));
     throw_if_interrupted();
     ProgressBar bar("Posing " + character.name);
     stage.poses.push_back(motion::bake_poses(character, casting.clips, stage.points.back().surface, byte_budget,
@@ -62,11 +67,11 @@ std::vector<render::FigureAssets> Stage::figure_assets() const {
 }
 
 std::unique_ptr<Stage> build_stage(const std::vector<std::filesystem::path>& character_files, std::int64_t people,
-                                   std::uint64_t seed) {
+                                   std::uint64_t seed, const PointCache& cache) {
     auto stage = std::make_unique<Stage>();
-    if (character_files.empty()) add_character(*stage, scene::make_person(), seed, pose_byte_budget);
+    if (character_files.empty()) add_character(*stage, scene::make_person(), seed, pose_byte_budget, cache);
     for (const std::filesystem::path& file : character_files)
-        add_character(*stage, pointsample::load_gltf(file), seed, pose_byte_budget / character_files.size());
+        add_character(*stage, pointsample::load_mesh(file), seed, pose_byte_budget / character_files.size(), cache);
     throw_if_interrupted();
     ProgressBar bar("Seating the crowd");
     stage->plan = scene::plan_stadium(people, scene::room_for(stage->cast, stage->poses));

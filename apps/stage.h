@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/point_cache.h"
 #include "motion/mesh.h"
 #include "motion/pose_table.h"
 #include "pointsample/point_model.h"
@@ -33,6 +34,6 @@ struct Stage {
 
 // `character_files` empty: the built-in person. Shows progress on a terminal. Throws what the loaders throw.
 std::unique_ptr<Stage> build_stage(const std::vector<std::filesystem::path>& character_files, std::int64_t people,
-                                   std::uint64_t seed);
+                                   std::uint64_t seed, const PointCache& cache);
 
 }  // namespace apps

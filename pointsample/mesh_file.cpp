@@ -45,6 +45,8 @@ motion::Character load_mesh(const std::filesystem::path& path) {
     if (extension == ".obj") return load_statue(path, read_obj);
     if (extension == ".ply") return load_statue(path, read_ply);
     return with_name(path, [&]() -> motion::Character {
+        const InputFile file(path,
+                             "a .glb, .gltf, .obj or .ply file");  // a folder's lack of extension is not the point
         fail(extension.empty() ? "a name without extension" : "a name that ends in " + in_quotes(extension),
              ".glb, .gltf, .obj or .ply");
     });

@@ -50,6 +50,9 @@ private:
     std::string key_;
 };
 
+// What unpack() of the model's file gives: for programs that may find it kept or not, and shall do the same.
+PointModel as_stored(const PointModel& model);
+
 // `key` may be anything up to 64 KiB. The model's lists are of one length, as PointModel says. 37 bytes a point.
 void write_pts(std::ostream& out, const PointModel& model, const std::string& key);
 

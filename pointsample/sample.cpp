@@ -196,6 +196,7 @@ Draft even(const Job& job) {
 }
 
 Draft uniform(const Job& job) {
+    constexpr std::size_t fewest_tried = 4096;
     const std::size_t count = job.options.count;
     const AliasTable table(job.surface);
     Draft draft;
@@ -203,7 +204,9 @@ Draft uniform(const Job& job) {
     std::size_t tried = 0;
     while (draft.points.size() < count) {
         const std::size_t before = draft.points.size();
-        const std::size_t batch = job.hidden != nullptr ? batch_size : std::min(batch_size, count - before);
+        const std::size_t missing = count - before;  // some of what is tried for them will be hidden
+        const std::size_t batch =
+            job.hidden != nullptr ? std::clamp(2 * missing, fewest_tried, batch_size) : std::min(batch_size, missing);
         for (std::size_t i = 0; i < batch; ++i) draft.points.push_back(table.draw(job.options.seed, tried + i));
         tried += batch;
         if (job.hidden != nullptr) {
@@ -216,7 +219,7 @@ Draft uniform(const Job& job) {
                     ++draft.hidden_removed;
             }
             draft.points.resize(to);
-            refuse_the_hidden(to, tried);
+            if (to < count) refuse_the_hidden(to, tried);
         }
         job.progress(0.9 * static_cast<double>(draft.points.size()) / static_cast<double>(count));
     }

@@ -93,10 +93,12 @@ TEST_F(MeshFile, GltfLoadsByEitherName) {
 }
 
 TEST_F(MeshFile, OthersAreRefusedByName) {
+    std::ofstream(folder_ / "model.stl") << "solid";
+    std::ofstream(folder_ / "model") << "solid";
     for (const auto& [name, found] :
          std::vector<std::pair<std::string, std::string>>{{"model.stl", "a name that ends in '.stl'"},
                                                           {"model", "a name without extension"},
-                                                          {"model.obj/", "a name without extension"},
+                                                          {"none", "no such file"},
                                                           {"none.obj", "no such file"},
                                                           {"none.ply", "no such file"},
                                                           {"none.glb", "no such file"}}) {

@@ -11,6 +11,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "pointsample/model_key.h"
 #include "pointsample/point_model.h"
 #include "pointsample/visibility.h"
 #include "tests/pointsample/shapes.h"
@@ -128,6 +129,13 @@ TEST(Sampler, ASeedNamesOneSequenceOnAnyThreadCount) {
     EXPECT_FALSE(same_bits(one.positions, other.positions));
 }
 
+TEST(Sampler, AFewUniformPointsOfAVisibleSurfaceAreFound) {
+    const motion::Mesh sphere = tests::make_sphere(1, 4);
+    const pointsample::PosedMesh rest{sphere.positions, sphere.normals};
+    for (const std::size_t count : {1, 2, 64, 65, 5000})
+        EXPECT_EQ(pointsample::sample(sphere, {&rest, 1}, {count, 1, pointsample::Order::uniform, true}).size(), count);
+}
+
 // FNV-1a.
 template <typename T>
 std::uint64_t hash_of(const std::vector<T>& values, std::uint64_t hash = 0xcbf29ce484222325u) {
@@ -144,6 +152,8 @@ TEST(Sampler, PointsAreTheSameBitsEverywhere) {
         const PointModel model = pointsample::sample(sphere, {&rest, 1}, {4096, 1, order, false});
         return hash_of(model.spacing, hash_of(model.positions));
     };
+    // Another value is another version, or caches go on with the old points: raise pointsample::sampler_version.
+    ASSERT_EQ(pointsample::sampler_version, 1);
     EXPECT_EQ(hash(pointsample::Order::progressive), 5090424052251061212u);
     EXPECT_EQ(hash(pointsample::Order::even), 2631132621981265322u);
     EXPECT_EQ(hash(pointsample::Order::uniform), 1386376832051472163u);

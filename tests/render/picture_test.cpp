@@ -102,8 +102,8 @@ TEST_F(Picture, PersonStandsWhereTheirPoseProjects) {
 
 TEST_F(Picture, PointsCoverTheSilhouetteAndLittleElse) {
     Portrait portrait;
-    // About 110 to 18 px tall. Points are not laid out on purpose yet, so some holes are left; and a splat sticks out of
-    // thin limbs by up to half its size on both sides.
+    // About 110 to 18 px tall. Some holes are left; and a splat sticks out of thin limbs by up to half its size on both
+    // sides.
     for (const double distance : {4.0, 6.0, 12.0, 24.0}) {
         const render::View view = portrait.view(distance);
         const render::Image nobody = portrait.draw_nobody(view);
