@@ -15,9 +15,13 @@ public:
     Xvfb() {
         int ends[2];
         if (pipe2(ends, O_CLOEXEC) != 0) return;
-        server_ = std::make_unique<Process>(
-            std::vector<std::string>{"Xvfb", "-displayfd", std::to_string(ends[1]), "-screen", "0", "640x480x24"},
-            ends[1]);
+        // Left to choose, servers that start at once take each other's sockets away: the number is of this process
+        // alone. When the last client leaves, a server starts anew and for a moment takes none: not this one.
+        const std::string display = ":" + std::to_string(1000 + getpid() % 30000);
+        server_ =
+            std::make_unique<Process>(std::vector<std::string>{"Xvfb", display, "-noreset", "-displayfd",
+                                                               std::to_string(ends[1]), "-screen", "0", "640x480x24"},
+                                      ends[1]);
         close(ends[1]);
         char byte = 0;  // the display's number and a line's end, once it takes clients; nothing if there is no Xvfb
         while (read(ends[0], &byte, 1) == 1 && byte != '\n') number_ += byte;
