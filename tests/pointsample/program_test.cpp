@@ -9,7 +9,9 @@
 #include <iterator>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "pointsample/points_file.h"
 #include "tests/pointsample/gltf_builder.h"
 
 namespace {
@@ -101,14 +103,27 @@ TEST_F(Program, PosesAreTakenByNameOrIndex) {
 }
 
 TEST_F(Program, RefusesWrongUsageWithTwo) {
-    for (const char* arguments :
-         {"", "square.glb", "square.glb --points 5", "square.glb --out out.ply", "square.glb --points 0 --out out.ply",
-          "square.glb --points -1 --out out.ply", "square.glb --points 1e3 --out out.ply",
-          "square.glb --points 100000001 --out out.ply", "square.glb --points x --out out.ply",
-          "square.glb --points 5 --out out.ply --nonsense", "square.glb --points 5 --out out.ply --pose wag",
-          "square.glb --points 5 --out out.ply --pose wag@", "square.glb --points 5 --out out.ply --pose wag@nan",
-          "square.glb --points 5 --out out.ply --pose wag@1x", "square.glb --points 5 --out - --stats -",
-          "square.glb --points 5 --out out.ply --seed -3"})
+    for (const char* arguments : {"",
+                                  "square.glb",
+                                  "square.glb --points 5",
+                                  "square.glb --out out.ply",
+                                  "square.glb --points 0 --out out.ply",
+                                  "square.glb --points -1 --out out.ply",
+                                  "square.glb --points 1e3 --out out.ply",
+                                  "square.glb --points 100000001 --out out.ply",
+                                  "square.glb --points x --out out.ply",
+                                  "square.glb --points 5 --out out.ply --nonsense",
+                                  "square.glb --points 5 --out out.ply --pose wag",
+                                  "square.glb --points 5 --out out.ply --pose wag@",
+                                  "square.glb --points 5 --out out.ply --pose wag@nan",
+                                  "square.glb --points 5 --out out.ply --pose wag@1x",
+                                  "square.glb --points 5 --out - --stats -",
+                                  "square.glb --points 5 --out out.ply --seed -3",
+                                  "square.glb --points 5 --out out.xyz",
+                                  "square.glb --points 5 --out out.pts --ascii",
+                                  "square.glb --points 5 --out out.ply --even --uniform",
+                                  "square.glb --points 10000001 --out out.ply",
+                                  "everything.glb --points 5 --out out.ply --all-clips --pose 0@0"})
         expect_refusal(arguments, 2);
 }
 
@@ -141,6 +156,60 @@ TEST_F(Program, SaysWhatItFoundInPlaceOfACharacter) {
     for (const auto& [input, found] : cases) {
         expect_refusal(input + " --points 5 --out out.ply", 1);
         EXPECT_NE(read(folder_ / "stderr").find("found " + found), std::string::npos) << read(folder_ / "stderr");
+    }
+}
+
+// Lines after the header.
+std::size_t lines_of_text(const std::string& ply) {
+    const std::size_t begin = ply.find("end_header\n") + 11;
+    return static_cast<std::size_t>(std::count(ply.begin() + static_cast<std::ptrdiff_t>(begin), ply.end(), '\n'));
+}
+
+TEST_F(Program, WritesTextAndPackedFilesToo) {
+    ASSERT_EQ(run("everything.glb --points 300 --out out.ply --ascii"), 0) << read(folder_ / "stderr");
+    EXPECT_EQ(read(folder_ / "out.ply").rfind("ply\nformat ascii 1.0\nelement vertex 300\n", 0), 0u);
+    EXPECT_EQ(lines_of_text(read(folder_ / "out.ply")), 300u);
+    ASSERT_EQ(run("everything.glb --points 300 --out out.pts --all-clips --visible-only"), 0);
+    const pointsample::PointsFile file(folder_ / "out.pts");
+    EXPECT_EQ(file.points().size(), 300u);
+    EXPECT_EQ(file.key().size(), 32u);
+    EXPECT_FALSE(file.unpack().coverage.empty());
+}
+
+TEST_F(Program, EveryOrderGivesTheExactCountAndPointsOfItsOwn) {
+    std::vector<std::string> files;
+    for (const std::string order : {"", "--even", "--uniform"}) {
+        ASSERT_EQ(run("square.glb --points 777 --out out.ply --ascii " + order), 0) << read(folder_ / "stderr");
+        files.push_back(read(folder_ / "out.ply"));
+        EXPECT_EQ(lines_of_text(files.back()), 777u);
+    }
+    EXPECT_NE(files[0], files[1]);
+    EXPECT_NE(files[0], files[2]);
+}
+
+TEST_F(Program, TakesMeshesOfOtherFormats) {
+    std::ofstream(folder_ / "square.obj") << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+    std::ofstream(folder_ / "square.ply")
+        << "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+           "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 "
+           "3\n";
+    for (const std::string input : {"square.obj", "square.ply"}) {
+        ASSERT_EQ(run(input + " --points 50 --out out.ply --stats stats.json"), 0) << read(folder_ / "stderr");
+        const json stats = json::parse(read(folder_ / "stats.json"));
+        EXPECT_EQ(stats["triangles"], 2) << input;
+        EXPECT_EQ(stats["area"], 1.0) << input;
+        EXPECT_EQ(stats["points"], 50) << input;
+    }
+}
+
+TEST_F(Program, StatsSayHowWellPrefixesCover) {
+    ASSERT_EQ(run("everything.glb --points 500 --out out.ply --stats stats.json"), 0);
+    const json coverage = json::parse(read(folder_ / "stats.json")).at("coverage");
+    ASSERT_GT(coverage.size(), 4u);
+    EXPECT_EQ(coverage.back().at("points"), 500);
+    for (std::size_t i = 1; i < coverage.size(); ++i) {
+        EXPECT_GT(coverage[i].at("points"), coverage[i - 1].at("points"));
+        EXPECT_LE(coverage[i].at("radius"), coverage[i - 1].at("radius"));
     }
 }
 
