@@ -108,6 +108,7 @@ void print_surface(const std::string& name, const pointsample::SampleOptions& op
     const Ground ground(mesh, options.visible_only);
     const std::string stem = name.substr(name.find_last_of('/') + 1);
     std::vector<std::size_t> prefixes{64, 256, 1024, 4096, 16384, options.count * 6 / 10, options.count};
+    std::sort(prefixes.begin(), prefixes.end());
     if (options.order == pointsample::Order::even) prefixes = {options.count};
     for (const std::size_t prefix : prefixes)
         if (prefix <= options.count) print_row(stem, ground, sample, prefix);
