@@ -11,7 +11,7 @@
 
 namespace pointsample {
 
-inline constexpr std::size_t opening_size = 32;
+inline constexpr std::size_t opening_size = 16;
 
 // `count` different candidates, each of which lowers the mean squared distance of the surface to its nearest point
 // most, given those before it (greedy medians); opposed faces count as twice as far. Seen by 512 candidates, which a

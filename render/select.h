@@ -44,9 +44,9 @@ struct Figure {
 struct SelectOptions {
     float theta = motion::default_theta;  // eq. 1's constant [1/m]
     // Points per splat-sized square of the whole surface. A quarter of a convex body's surface is its silhouette and
-    // half its points face away: 1 puts two facing points on every square that is to be covered. Blue noise leaves
-    // about one in twenty open; half as many more leave fewer, and make people fatter.
-    float density = 1.0f;
+    // half its points face away: 1.2 puts more than two facing points on every square that is to be covered, and leaves
+    // about one in fifty open. Fewer leave more holes, more make people fatter.
+    float density = 1.2f;
     // A person becomes points only where that is the cheaper way: one point costs a CPU rasteriser about two triangles.
     float triangles_per_point = 2.0f;
 };
