@@ -102,8 +102,8 @@ VisibleCandidates make_candidates(const Job& job, std::span<const std::uint32_t>
     return out;
 }
 
-// As many visible candidates as are `wanted`, nearly.
-VisibleCandidates make_visible_candidates(const Job& job, std::size_t wanted,
+// As many visible candidates as are `wanted`, nearly; `least` of them at least.
+VisibleCandidates make_visible_candidates(const Job& job, std::size_t wanted, std::size_t least,
                                           const std::function<void(double)>& progress) {
     constexpr std::size_t estimate = 8192;
     const std::vector<std::uint32_t> line = order_along_line(job.surface);
@@ -118,7 +118,7 @@ VisibleCandidates make_visible_candidates(const Job& job, std::size_t wanted,
         const std::size_t made = static_cast<std::size_t>(std::ceil(static_cast<double>(wanted) / share));
         out = make_candidates(job, line, made, wanted, progress);
         share *= 0.5;
-    } while (out.candidates.count < job.options.count);
+    } while (out.candidates.count < least);
     out.candidates.pad();
     return out;
 }
@@ -156,7 +156,7 @@ std::size_t hidden_beside(std::size_t points, const VisibleCandidates& from) {
 
 Draft progressive(const Job& job) {
     const std::size_t count = job.options.count;
-    VisibleCandidates from = make_visible_candidates(job, candidate_count(count, 16), job.progress.part(0, 0.3));
+    VisibleCandidates from = make_visible_candidates(job, candidate_count(count, 16), count, job.progress.part(0, 0.3));
     const FarthestOrder order =
         farthest_order(from.candidates, count, opening_of(job, from.candidates, from.visible_area()),
                        coverage_marks(count), job.progress.part(0.3, 0.9));
@@ -172,7 +172,7 @@ Draft progressive(const Job& job) {
 
 Draft even(const Job& job) {
     const std::size_t count = job.options.count;
-    VisibleCandidates from = make_visible_candidates(job, candidate_count(count, 24), job.progress.part(0, 0.2));
+    VisibleCandidates from = make_visible_candidates(job, candidate_count(count, 24), count, job.progress.part(0, 0.2));
     Candidates& candidates = from.candidates;
     Draft draft;
     draft.hidden_removed = hidden_beside(count, from);
@@ -224,7 +224,7 @@ Draft uniform(const Job& job) {
         job.progress(0.9 * static_cast<double>(draft.points.size()) / static_cast<double>(count));
     }
     const VisibleCandidates from =
-        make_visible_candidates(job, std::min(candidate_count(count, 16), most_spots), [](double) {});
+        make_visible_candidates(job, std::min(candidate_count(count, 16), most_spots), 1, [](double) {});
     draft.spots = spots_of(from);
     draft.spacing.push_back(std::numeric_limits<float>::infinity());
     for (std::size_t i = 1; i < count; ++i)
