@@ -21,6 +21,7 @@ namespace pointsample {
 namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 // Both sRGB-encoded; multiplied as light.
 std::uint8_t product(std::uint8_t a, std::uint8_t b) {
@@ -81,8 +82,13 @@ public:
 
 private:
     void read_line(std::string_view line) {
+        if (std::exchange(at_start_, false) && line.starts_with(byte_order_mark))
+            line.remove_prefix(byte_order_mark.size());
         Words words(line);
         const std::string_view keyword = words.next();
+        // Names may hold a #; what stands after numbers is a comment.
+        if (keyword == "v" || keyword == "vt" || keyword == "vn" || keyword == "f")
+            words = Words(words.rest().substr(0, words.rest().find('#')));
         if (keyword == "v")
             read_vertex(words);
         else if (keyword == "vt")
@@ -231,6 +237,7 @@ private:
     }
 
     InputFile file_;
+    bool at_start_ = true;
     ObjMaterials materials_;
     std::vector<ObjLook> looks_;  // the first: no material
     std::map<std::string, std::uint32_t, std::less<>> look_of_material_;

@@ -50,6 +50,16 @@ TEST_F(Obj, EveryWayToNameACornerIsRead) {
     }
 }
 
+TEST_F(Obj, CommentsAndAByteOrderMarkAreNoValues) {
+    const Mesh mesh = load(
+        "\xEF\xBB\xBFv 0 0 0 # the first\nv 1 0 0# 1 0 0\nv 0 1 0 #\nvt 0 0 # a\nvn 0 0 1 # b\nf 1/1/1 2/1/1 3/1/1 # "
+        "1\n");
+    EXPECT_EQ(mesh.vertex_count(), 3u);
+    EXPECT_DOUBLE_EQ(tests::area_of(mesh), 0.5);
+    EXPECT_EQ(mesh.colors[1], glm::u8vec4(255));
+    EXPECT_EQ(refusal(square + "f 1 2 # 3\n"), "found no triangles; expected at least one face of three corners");
+}
+
 TEST_F(Obj, CornersOfOneLookAreOneVertex) {
     EXPECT_EQ(load(square + "f 1 2 3\nf 1 3 4\n").vertex_count(), 4u);
     EXPECT_EQ(load(square + "vt 0 0\nf 1 2 3\nf 1/1 3 4\n").vertex_count(), 5u);
