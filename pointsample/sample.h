@@ -35,7 +35,8 @@ struct SampleOptions {
 // [bytes], progressive: 800 a point up to 200,000 points, which have 16 candidates each; more share 3.2 million
 // candidates until they have 6 each, 330 a point. Even: half as much again. Uniform: 70 a point. With it 40 a triangle
 // and, if visible_only, 100 a triangle for each pose that is needed to see whether points are hidden.
-// Throws std::runtime_error if no triangle has an area, or less than a thousandth of it is visible.
+// Throws std::runtime_error if no triangle has an area, if all together have one of 3.4e38 or more, or if less than a
+// thousandth of it is visible.
 PointModel sample(const motion::Mesh& mesh, std::span<const PosedMesh> poses, const SampleOptions& options,
                   const std::function<void(double)>& progress = {});
 

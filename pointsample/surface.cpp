@@ -50,6 +50,8 @@ void Surface::find_frame() {
     }
     if (!(total_first_area_ > 0))
         throw std::runtime_error("found no triangle with an area; expected a surface to sample");
+    if (total_first_area_ > static_cast<double>(std::numeric_limits<float>::max()))
+        throw std::runtime_error("found a surface of more than 3.4e38 square units; expected a smaller one");
     center_ = weighted / total_first_area_;
     const glm::dvec3 size = high - low;
     unit_ = std::max({size.x, size.y, size.z});

@@ -16,7 +16,7 @@ namespace pointsample {
 class Surface {
 public:
     // Keeps references. At least one pose; they differ in positions alone. Throws std::runtime_error if no triangle has
-    // a finite area in the first.
+    // a finite area in the first, or all together have one that no float holds.
     Surface(std::span<const std::uint32_t> indices, std::span<const PosedMesh> poses);
 
     std::size_t triangle_count() const { return indices_.size() / 3; }

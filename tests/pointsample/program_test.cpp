@@ -14,6 +14,12 @@
 #include "pointsample/points_file.h"
 #include "tests/pointsample/gltf_builder.h"
 
+#if defined(__SANITIZE_ADDRESS__)
+#define GRANDSTAND_SANITIZED 1
+#else
+#define GRANDSTAND_SANITIZED 0
+#endif
+
 namespace {
 
 using tests::json;
@@ -83,6 +89,12 @@ TEST_F(Program, WritesThePointsAskedFor) {
     EXPECT_GT(stats["peak_mb"], 1.0);
 }
 
+TEST_F(Program, IndependentPointsTakeMemoryForThemselvesAlone) {
+    ASSERT_EQ(run("square.glb --points 2000000 --out - --uniform --stats stats.json"), 0) << read(folder_ / "stderr");
+    constexpr double bytes_each = 70, programs_own_mb = GRANDSTAND_SANITIZED ? 2000 : 64;
+    EXPECT_LT(json::parse(read(folder_ / "stats.json")).at("peak_mb"), 2 * bytes_each + programs_own_mb);
+}
+
 TEST_F(Program, TheSameArgumentsGiveTheSameBytes) {
     ASSERT_EQ(run("everything.glb --points 500 --out a.ply --visible-only"), 0);
     ASSERT_EQ(run("everything.glb --points 500 --out b.ply --visible-only"), 0);
@@ -134,6 +146,8 @@ TEST_F(Program, RefusesBadFilesWithOne) {
     expect_refusal("square.glb --points 5 --out nowhere/out.ply --stats stats.json", 1);
     expect_refusal("square.glb --points 5 --out out.ply --pose wag@1", 1);
     expect_refusal("everything.glb --points 5 --out out.ply --pose 7@1", 1);
+    folder_.write("huge.obj", "v 0 0 0\nv 1e20 0 0\nv 0 1e20 0\nf 1 2 3\n");
+    expect_refusal("huge.obj --points 5 --out out.ply --stats stats.json", 1);
 }
 
 TEST_F(Program, RefusesToOverwriteItsInputOrItsOtherOutput) {
