@@ -1,6 +1,7 @@
 // pointsample: a character's surface, in any pose, as an even sequence of coloured points.
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -40,7 +41,7 @@ struct Options {
     std::uint64_t points = 0;  // [1, most_points]
     std::string output;
     bool ascii = false;
-    std::string pose;  // empty: the rest pose
+    std::optional<std::string> pose;  // none: the rest pose
     bool all_clips = false, visible_only = false, even = false, uniform = false;
     std::uint64_t seed = 1;
     std::string stats;
@@ -77,9 +78,9 @@ void add_options(CLI::App& app, Options& options) {
     app.add_flag("--ascii", options.ascii, "Write the PLY as text");
     auto* pose =
         app.add_option("--pose", options.pose, "CLIP@SECONDS, the clip by name or index; default: the rest pose");
-    app.add_flag(
-           "--all-clips", options.all_clips,
-           "Make the points for all clips: more where the surface stretches, and hidden is what is so in all of them")
+    app.add_flag("--all-clips", options.all_clips,
+                 "Make the points for all clips, of 8 poses each, or fewer of many: more where the surface stretches, "
+                 "and hidden is what is so in all of them")
         ->excludes(pose);
     app.add_flag("--visible-only", options.visible_only, "Replace points that cannot be seen from outside");
     auto* even = app.add_flag("--even", options.even, "One sample of just so many points, as even as can be");
@@ -127,17 +128,20 @@ const motion::Clip& find_clip(const motion::Character& character, const std::str
 
 // The first is the pose that the points are given in.
 std::vector<pointsample::PosedMesh> poses_of(const motion::Character& character, const Options& options) {
-    if (options.pose.empty()) {
+    if (!options.pose) {
         std::vector<pointsample::PosedMesh> poses = pointsample::spread_poses(character, {}, 1);
         if (!options.all_clips) return poses;
         std::vector<int> clips(character.clips.size());
         std::iota(clips.begin(), clips.end(), 0);
-        constexpr std::size_t poses_each = 8;
-        for (pointsample::PosedMesh& pose : pointsample::spread_poses(character, clips, poses_each * clips.size()))
+        if (clips.empty()) return poses;
+        // Time and memory are proportional to poses, and some characters have a hundred clips.
+        constexpr std::size_t most_each = 8, most = 64;
+        const std::size_t each = std::clamp(most / clips.size(), std::size_t{1}, most_each);
+        for (pointsample::PosedMesh& pose : pointsample::spread_poses(character, clips, each * clips.size()))
             poses.push_back(std::move(pose));
         return poses;
     }
-    const PoseChoice chosen = parse_pose(options.pose);
+    const PoseChoice chosen = parse_pose(*options.pose);
     motion::Pose pose;
     motion::evaluate(character, find_clip(character, chosen.clip), chosen.seconds, pose);
     std::vector<pointsample::PosedMesh> poses(1);
@@ -215,7 +219,7 @@ void run(const Options& options) {
 
 // What CLI11 cannot see; throws std::invalid_argument.
 void check(const Options& options) {
-    if (!options.pose.empty()) parse_pose(options.pose);
+    if (options.pose) parse_pose(*options.pose);
     const std::string extension = fs::path(options.output).extension();
     if (options.output != "-" && extension != ".ply" && extension != ".pts" && !extension.empty())
         throw apps::wrong_argument("--out", "'" + options.output + "'", "a name that ends in .ply or .pts");
