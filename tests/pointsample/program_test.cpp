@@ -90,9 +90,9 @@ TEST_F(Program, WritesThePointsAskedFor) {
 }
 
 TEST_F(Program, IndependentPointsTakeMemoryForThemselvesAlone) {
-    ASSERT_EQ(run("square.glb --points 2000000 --out - --uniform --stats stats.json"), 0) << read(folder_ / "stderr");
+    ASSERT_EQ(run("square.glb --points 3000000 --out - --uniform --stats stats.json"), 0) << read(folder_ / "stderr");
     constexpr double bytes_each = 70, programs_own_mb = GRANDSTAND_SANITIZED ? 2000 : 64;
-    EXPECT_LT(json::parse(read(folder_ / "stats.json")).at("peak_mb"), 2 * bytes_each + programs_own_mb);
+    EXPECT_LT(json::parse(read(folder_ / "stats.json")).at("peak_mb"), 3 * bytes_each + programs_own_mb);
 }
 
 TEST_F(Program, TheSameArgumentsGiveTheSameBytes) {
@@ -127,6 +127,7 @@ TEST_F(Program, RefusesWrongUsageWithTwo) {
                                   "square.glb --points 5 --out out.ply --nonsense",
                                   "square.glb --points 5 --out out.ply --pose wag",
                                   "square.glb --points 5 --out out.ply --pose wag@",
+                                  "square.glb --points 5 --out out.ply --pose ''",
                                   "square.glb --points 5 --out out.ply --pose wag@nan",
                                   "square.glb --points 5 --out out.ply --pose wag@1x",
                                   "square.glb --points 5 --out - --stats -",
