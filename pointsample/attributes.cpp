@@ -22,10 +22,16 @@ glm::vec3 linear(const glm::u8vec4& color) {
     return {linear_of_srgb(color.r), linear_of_srgb(color.g), linear_of_srgb(color.b)};
 }
 
+// In [0, 1]. Between corners at the largest floats lie sums that overflow.
+float wrapped(float coordinate) {
+    const float fraction = coordinate - std::floor(coordinate);
+    return std::isfinite(fraction) ? fraction : 0.0f;
+}
+
 // Bilinear, wrapping, in linear light.
 glm::vec3 texture_at(const motion::Texture& texture, const glm::vec2& uv) {
     const glm::vec2 size(texture.width, texture.height);
-    const glm::vec2 at = (uv - glm::floor(uv)) * size - 0.5f;
+    const glm::vec2 at = glm::vec2(wrapped(uv.x), wrapped(uv.y)) * size - 0.5f;
     const glm::vec2 corner = glm::floor(at), s = at - corner;
     const auto texel = [&](int dx, int dy) {
         const int x = (static_cast<int>(corner.x) + dx + texture.width) % texture.width;

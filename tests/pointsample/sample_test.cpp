@@ -414,6 +414,16 @@ TEST(Sampler, ColorsAreTextureTimesVertexInLinearLight) {
     EXPECT_NEAR(color_at(0.75f).r, half_light, 1);
 }
 
+TEST(Sampler, TheLargestTextureCoordinatesStayInTheTexture) {
+    motion::Mesh mesh = tests::make_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    mesh.textures.push_back({3, 1, {{0, 10, 255, 255}, {255, 10, 0, 255}, {0, 10, 255, 255}}});
+    mesh.texture_ids.assign(3, 0);
+    for (const float sign : {1.0f, -1.0f}) {
+        mesh.uvs.assign(3, glm::vec2(sign * std::numeric_limits<float>::max()));
+        for (const glm::u8vec4& color : sample(mesh, 2000).colors) ASSERT_EQ(color, glm::u8vec4(0, 10, 255, 255));
+    }
+}
+
 TEST(Sampler, ProgressOnlyRisesAndEndsAtOne) {
     const motion::Mesh sphere = tests::make_sphere(1, 2);
     double last = 0;
