@@ -3,7 +3,6 @@
 #include <cstdlib>
 #include <exception>
 #include <optional>
-#include <system_error>
 
 #include "apps/interrupt.h"
 #include "apps/output.h"
@@ -15,13 +14,11 @@ namespace {
 namespace fs = std::filesystem;
 
 std::optional<pointsample::PointModel> kept(const fs::path& path, const std::string& key) {
-    std::error_code error;
-    if (!fs::exists(path, error)) return {};
     try {
         const pointsample::PointsFile file(path);
         if (file.key() == key) return file.unpack();
     } catch (const std::exception&) {
-        // Damaged or of another version: as if it were not there.
+        // Not there, damaged or of another version: made anew.
     }
     return {};
 }

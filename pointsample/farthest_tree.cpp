@@ -11,7 +11,7 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr std::size_t nobody = std::numeric_limits<std::size_t>::max();
 
 // Where normals oppose. Factor 1 starves the sides of a sheet of each other, 3 lets points across it come too near.
-constexpr float opposed_cosine = -0.7f, opposed_factor = 2.0f, opposed_squared = opposed_factor * opposed_factor;
+constexpr float opposed_squared = opposed_factor * opposed_factor;
 
 // Level density: the most that a key gives way, for regions with so many points due. More costs distance point by
 // point.

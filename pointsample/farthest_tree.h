@@ -10,6 +10,9 @@
 
 namespace pointsample {
 
+// Normals whose cosine is below `opposed_cosine` oppose, and make a distance `opposed_factor` times as long.
+inline constexpr float opposed_cosine = -0.7f, opposed_factor = 2.0f;
+
 // Distances are Euclid's, twice that where the faces' normals oppose (cosine below -0.7): so the two sides of a thin
 // sheet hardly see each other. A candidate's key is its squared distance to the nearest point times its stretch: where
 // a surface stretches to s times its area, points are to be sqrt(s) times as near to each other.

@@ -3,18 +3,18 @@
 #include <algorithm>
 #include <limits>
 
+#include "pointsample/farthest_tree.h"
 #include "pointsample/hash.h"
 
 namespace pointsample {
 namespace {
 
 constexpr std::size_t most_spots = 512;
-constexpr float opposed_cosine = -0.7f;
-constexpr float opposed = 2.0f * 2.0f;  // distances are squared
+constexpr float opposed_squared = opposed_factor * opposed_factor;
 
 float squared_distance(const Place& a, const Place& b) {
     const glm::vec3 apart = a.position - b.position;
-    return glm::dot(apart, apart) * (glm::dot(a.normal, b.normal) < opposed_cosine ? opposed : 1.0f);
+    return glm::dot(apart, apart) * (glm::dot(a.normal, b.normal) < opposed_cosine ? opposed_squared : 1.0f);
 }
 
 // Evenly along the candidates' line, so each stands for as much of the surface.

@@ -57,8 +57,8 @@ double dot(const Unknowns& a, const Unknowns& b) {
     return sum;
 }
 
-double pieces_price(const Unknowns& prices) {
-    return *std::max_element(prices.begin(), prices.end());
+bool has_prices(const Unknowns& prices) {
+    return *std::max_element(prices.begin(), prices.end()) > 0;
 }
 
 double pieces_of(const Observation& seen) {
@@ -239,7 +239,7 @@ void refine(Solution& solution, const std::vector<Observation>& all, double like
     const Unknowns sureness = sureness_of(all);
     double sigma = 0, change = 1;
     for (int round = 0; round < most_rounds && change > std::max(settled, settled_noise * sigma); ++round) {
-        if (pieces_price(solution.prices) > 0) sigma = sigma_of(news_of(residuals_of(all, solution.prices), likeness));
+        if (has_prices(solution.prices)) sigma = sigma_of(news_of(residuals_of(all, solution.prices), likeness));
         const double clip = sigma > 0 ? huber * sigma : std::numeric_limits<double>::infinity();
         const LeastSquares sum = equations(all, solution.prices, sureness, likeness, clip, sigma);
         const Unknowns before = solution.prices;
