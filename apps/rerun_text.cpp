@@ -81,11 +81,7 @@ std::string percent(double share) {
 }  // namespace
 
 sfsm::ReportRun report_run(const Rerun& rerun) {
-    sfsm::ReportRun run;
-    run.name = rerun.law;
-    run.frames.reserve(rerun.rows.size());
-    for (const sfsm::TraceRow& row : rerun.rows) run.frames.push_back(sfsm::report_frame(row));
-    run.scores = sfsm::time_scores(run.frames);
+    sfsm::ReportRun run = sfsm::report_run(rerun.law, rerun.rows);
     add_metrics(run.scores, rerun);
     return run;
 }

@@ -56,11 +56,8 @@ sfsm::Report report_of(std::span<const sfsm::TraceRow> rows, const std::map<std:
     sfsm::Report report;
     report.title = settings.at("people") + " people on " + settings.at("device");
     report.facts.assign(settings.begin(), settings.end());
-    sfsm::ReportRun& run = report.runs.emplace_back();
     const std::string& state = settings.at("state");
-    run.name = state == "auto" ? settings.at("law") : "state " + state;
-    for (const sfsm::TraceRow& row : rows) run.frames.push_back(sfsm::report_frame(row));
-    run.scores = sfsm::time_scores(run.frames);
+    report.runs.push_back(sfsm::report_run(state == "auto" ? settings.at("law") : "state " + state, rows));
     return report;
 }
 

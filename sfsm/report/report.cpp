@@ -1,5 +1,7 @@
 #include "sfsm/report/report.h"
 
+#include <utility>
+
 #include "sfsm/summary.h"
 
 namespace sfsm {
@@ -28,6 +30,14 @@ std::vector<Score> time_scores(const std::vector<ReportFrame>& frames) {
         {"median", "ms", time(summary.p50_ms), 2, neither},
         {"99th percentile", "ms", time(summary.p99_ms), 2, less},
     };
+}
+
+ReportRun report_run(std::string name, std::span<const TraceRow> rows) {
+    ReportRun run{std::move(name), {}, {}};
+    run.frames.reserve(rows.size());
+    for (const TraceRow& row : rows) run.frames.push_back(report_frame(row));
+    run.scores = time_scores(run.frames);
+    return run;
 }
 
 }  // namespace sfsm

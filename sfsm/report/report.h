@@ -4,6 +4,7 @@
 
 #include <iosfwd>
 #include <limits>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,6 +42,9 @@ struct ReportRun {
     std::vector<ReportFrame> frames;
     std::vector<Score> scores;
 };
+
+// A run with the scores of its times.
+ReportRun report_run(std::string name, std::span<const TraceRow> rows);
 
 struct Report {
     std::string title;
