@@ -1,0 +1,450 @@
+#include "tests/reference/picture.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "tests/reference/surroundings.h"
+
+namespace reference {
+
+namespace {
+
+// Where a pixel is looked at, from its centre [px].
+constexpr double off = 1.0 / 16;
+constexpr std::array<glm::dvec2, 5> places = {glm::dvec2(0, 0), glm::dvec2(-off, -off), glm::dvec2(off, -off),
+                                              glm::dvec2(-off, off), glm::dvec2(off, off)};
+
+// Two surfaces so near to one another may be seen in either order: baked positions have 65,535 steps an axis.
+double as_good_as_near(double depth) {
+    return depth + 1e-3 + 1e-5 * depth;
+}
+
+// A normal so nearly at right angles to the ray may be taken to face either way: it is packed within 0.013 rad.
+constexpr double edge_on = 0.02;
+
+// Two passes over everything: first how near the nearest is in each place, then who is that near.
+class Canvas {
+public:
+    explicit Canvas(const Scene& scene) : scene_(scene), camera_(scene.camera) {
+        const std::size_t pixels = static_cast<std::size_t>(camera_.width) * camera_.height;
+        nearest_.assign(places.size() * pixels, INFINITY);
+        picture_ = {camera_.width, camera_.height, std::vector<glm::dvec3>(pixels),
+                    std::vector<std::vector<Shade>>(pixels), std::vector<bool>(pixels)};
+    }
+
+    Picture draw() {
+        for (const bool collecting : {false, true}) {
+            collecting_ = collecting;
+            for (const Person& person : scene_.people) person.points == 0 ? draw_mesh(person) : draw_splats(person);
+            if (scene_.structure) draw_structure();
+        }
+        draw_sky();
+        return std::move(picture_);
+    }
+
+private:
+    // Calls `shade(b)` for each place that the triangle is nearest in, with its corners' shares b there.
+    template <typename ShadeOf>
+    void triangle(const std::array<glm::dvec3, 3>& corners, bool two_sided, ShadeOf shade) {
+        // Homogeneous pixel coordinates: x and y times depth, and depth (Olano and Greer 1997). No corner need be in
+        // front of the camera.
+        std::array<glm::dvec3, 3> h;
+        glm::dvec2 low(INFINITY), high(-INFINITY);
+        bool behind = false;
+        for (int i = 0; i < 3; ++i) {
+            h[i] = homogeneous(corners[i]);
+            behind |= h[i].z < Camera::near;
+            low = glm::min(low, glm::dvec2(h[i]) / h[i].z);
+            high = glm::max(high, glm::dvec2(h[i]) / h[i].z);
+        }
+        if (std::max({h[0].z, h[1].z, h[2].z}) < Camera::near) return;
+        if (behind) low = {0, 0}, high = {camera_.width, camera_.height};
+        const double determinant = glm::dot(h[0], glm::cross(h[1], h[2]));
+        // Pixels count downward, so counter-clockwise is negative.
+        if (determinant == 0 || (determinant > 0 && !two_sided)) return;
+        const std::array<glm::dvec3, 3> share = {glm::cross(h[1], h[2]) / determinant,
+                                                 glm::cross(h[2], h[0]) / determinant,
+                                                 glm::cross(h[0], h[1]) / determinant};
+        const auto at = [&](double x, double y) {
+            const glm::dvec3 pixel(x, y, 1);
+            return glm::dvec3(glm::dot(share[0], pixel), glm::dot(share[1], pixel), glm::dot(share[2], pixel));
+        };
+        for_each_pixel(low, high, [&](int x, int y) {
+            for (std::size_t place = 0; place < places.size(); ++place) {
+                const double px = x + 0.5 + places[place].x, py = y + 0.5 + places[place].y;
+                const glm::dvec3 over_depth = at(px, py);
+                if (over_depth.x < 0 || over_depth.y < 0 || over_depth.z < 0) continue;
+                const double depth = 1 / (over_depth.x + over_depth.y + over_depth.z);
+                if (!(depth >= Camera::near)) continue;
+                put(x, y, place, depth, true, [&] {
+                    const glm::dvec3 right = at(px + 1, py), down = at(px, py + 1);
+                    return shade(over_depth * depth, right / (right.x + right.y + right.z),
+                                 down / (down.x + down.y + down.z));
+                });
+            }
+        });
+    }
+
+    // x, y [px] times depth, and depth [m].
+    glm::dvec3 homogeneous(const glm::dvec3& relative) const {
+        const double depth = glm::dot(relative, camera_.forward);
+        const double x = glm::dot(relative, camera_.right) / camera_.tan_x;
+        const double y = glm::dot(relative, camera_.up) / camera_.tan_y;
+        return {(depth + x) * camera_.width / 2, (depth - y) * camera_.height / 2, depth};
+    }
+
+    template <typename Visit>
+    void for_each_pixel(glm::dvec2 low, glm::dvec2 high, Visit visit) const {
+        const auto from = [](double v, int size) {
+            return static_cast<int>(std::clamp(std::floor(v - 1), 0.0, 1.0 * size));
+        };
+        const auto to = [](double v, int size) {
+            return static_cast<int>(std::clamp(std::ceil(v + 1), 0.0, 1.0 * size));
+        };
+        for (int y = from(low.y, camera_.height); y < to(high.y, camera_.height); ++y)
+            for (int x = from(low.x, camera_.width); x < to(high.x, camera_.width); ++x) visit(x, y);
+    }
+
+    // What is not certain to be there hides nothing.
+    template <typename ShadeOf>
+    void put(int x, int y, std::size_t place, double depth, bool certain, ShadeOf shade) {
+        const std::size_t pixel = static_cast<std::size_t>(y) * camera_.width + x;
+        double& nearest = nearest_[pixel * places.size() + place];
+        if (!collecting_) {
+            if (certain) nearest = std::min(nearest, depth);
+            return;
+        }
+        if (depth > as_good_as_near(nearest)) return;
+        const Shade shown = shade();
+        add(pixel, shown);
+        if (place == 0 && depth <= nearest) picture_.colors[pixel] = (shown.low + shown.high) / 2.0;
+    }
+
+    void add(std::size_t pixel, const Shade& shade) {
+        constexpr double same = 0.25;  // [of 255]
+        for (Shade& known : picture_.shades[pixel]) {
+            const glm::dvec3 low = glm::min(known.low, shade.low), high = glm::max(known.high, shade.high);
+            if (glm::any(glm::greaterThan(known.low - low, glm::dvec3(same)))) continue;
+            if (glm::any(glm::greaterThan(high - known.high, glm::dvec3(same)))) continue;
+            return;
+        }
+        picture_.shades[pixel].push_back(shade);
+    }
+
+    // Turned so that what faces +z faces (sin yaw, 0, cos yaw).
+    static glm::dvec3 turned(const Person& person, const glm::dvec3& v) {
+        const glm::dvec3 ahead(std::sin(person.yaw), 0, std::cos(person.yaw)), up(0, 1, 0);
+        return v.x * glm::cross(up, ahead) + v.y * up + v.z * ahead;
+    }
+    glm::dvec3 placed(const Person& person, const glm::dvec3& model) const {
+        return person.origin - camera_.position + person.scale * turned(person, model);
+    }
+
+    static glm::dvec3 linear(const glm::u8vec4& color) {
+        const glm::dvec3 code = glm::dvec3(color) / 255.0;
+        return code * code;
+    }
+
+    static glm::dvec3 tint_of(const Person& person, motion::Tint tint) {
+        switch (tint) {
+            case motion::Tint::skin:
+                return linear(person.palette.skin);
+            case motion::Tint::hair:
+                return linear(person.palette.hair);
+            case motion::Tint::shirt:
+                return linear(person.palette.shirt);
+            case motion::Tint::trousers:
+                return linear(person.palette.trousers);
+            default:
+                return glm::dvec3(1);
+        }
+    }
+
+    // Light on a vertex or point; of a surface that is seen from both sides, on the side that is seen.
+    static Shade light_seen(const glm::dvec3& normal, const glm::dvec3& at, bool both_sides) {
+        const double facing = -glm::dot(normal, glm::normalize(at));
+        const glm::dvec3 front = light_on(normal), back = light_on(-normal);
+        if (!both_sides || facing > edge_on) return {front, front};
+        if (facing < -edge_on) return {back, back};
+        return {glm::min(front, back), glm::max(front, back)};
+    }
+
+    void draw_mesh(const Person& person) {
+        const motion::Mesh& mesh = person.figure->mesh();
+        const Surface& surface = person.figure->pose(person.slot, person.tick);
+        std::vector<glm::dvec3> at, albedo;
+        std::vector<Shade> light;
+        for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+            at.push_back(placed(person, surface.positions[v]));
+            albedo.push_back(linear(mesh.colors[v]) * tint_of(person, mesh.tints[v]));
+            light.push_back(light_seen(turned(person, surface.normals[v]), at[v], mesh.double_sided));
+        }
+        for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+            const std::uint32_t a = mesh.indices[i], b = mesh.indices[i + 1], c = mesh.indices[i + 2];
+            triangle(
+                {at[a], at[b], at[c]}, mesh.double_sided,
+                [&](const glm::dvec3& share, const glm::dvec3& right, const glm::dvec3& down) {
+                    const auto blend = [&](const auto& x, const auto& y, const auto& z, const glm::dvec3& by) {
+                        return by.x * x + by.y * y + by.z * z;
+                    };
+                    const auto uv = [&](const glm::dvec3& by) {
+                        return blend(glm::dvec2(mesh.uvs[a]), glm::dvec2(mesh.uvs[b]), glm::dvec2(mesh.uvs[c]), by);
+                    };
+                    Shade texel{glm::dvec3(1), glm::dvec3(1)};
+                    if (mesh.texture_ids[c] != motion::no_texture)
+                        texel =
+                            texels(mesh, mesh.texture_ids[c], uv(share), uv(right) - uv(share), uv(down) - uv(share));
+                    const glm::dvec3 own = blend(albedo[a], albedo[b], albedo[c], share);
+                    return Shade{
+                        stored(own * texel.low * texel.low * blend(light[a].low, light[b].low, light[c].low, share)),
+                        stored(own * texel.high * texel.high *
+                               blend(light[a].high, light[b].high, light[c].high, share))};
+                });
+        }
+    }
+
+    // A texture's mipmaps: square, a power of two, as large as the figure's largest, each half the one before.
+    struct Level {
+        int side;
+        std::vector<glm::dvec3> texels;  // [0, 1] as stored
+        glm::dvec3 at(int x, int y) const {
+            const auto wrapped = [&](int v) { return (v % side + side) % side; };
+            return texels[static_cast<std::size_t>(wrapped(y)) * side + wrapped(x)];
+        }
+        // Between the four texels whose middles surround it; v counts from the top row.
+        glm::dvec3 between(const glm::dvec2& uv) const {
+            const double x = uv.x * side - 0.5, y = uv.y * side - 0.5;
+            const int left = static_cast<int>(std::floor(x)), top = static_cast<int>(std::floor(y));
+            return glm::mix(glm::mix(at(left, top), at(left + 1, top), x - left),
+                            glm::mix(at(left, top + 1), at(left + 1, top + 1), x - left), y - top);
+        }
+    };
+
+    static std::vector<Level> levels_of(const motion::Mesh& mesh, int id) {
+        constexpr int largest_side = 1024;
+        int side = 1;
+        for (const motion::Texture& texture : mesh.textures)
+            while (side < std::max(texture.width, texture.height) && side < largest_side) side *= 2;
+        const motion::Texture& texture = mesh.textures[static_cast<std::size_t>(id)];
+        Level level{side, {}};
+        for (int y = 0; y < side; ++y) {
+            for (int x = 0; x < side; ++x) {
+                const int x0 = x * texture.width / side, x1 = std::max(x0 + 1, (x + 1) * texture.width / side);
+                const int y0 = y * texture.height / side, y1 = std::max(y0 + 1, (y + 1) * texture.height / side);
+                glm::dvec3 sum(0);
+                for (int v = y0; v < y1; ++v)
+                    for (int u = x0; u < x1; ++u)
+                        sum += glm::dvec3(texture.texels[static_cast<std::size_t>(v) * texture.width + u]) / 255.0;
+                level.texels.push_back(sum / (1.0 * (x1 - x0) * (y1 - y0)));
+            }
+        }
+        std::vector<Level> levels{level};
+        while (levels.back().side > 1) {
+            const Level& finer = levels.back();
+            Level coarser{finer.side / 2, {}};
+            for (int y = 0; y < coarser.side; ++y)
+                for (int x = 0; x < coarser.side; ++x)
+                    coarser.texels.push_back((finer.at(2 * x, 2 * y) + finer.at(2 * x + 1, 2 * y) +
+                                              finer.at(2 * x, 2 * y + 1) + finer.at(2 * x + 1, 2 * y + 1)) /
+                                             4.0);
+            levels.push_back(coarser);
+        }
+        return levels;
+    }
+
+    // The mipmap is the one whose texels are nearest to pixels in size. Drivers measure that as they like, within a
+    // factor of the square root of two.
+    Shade texels(const motion::Mesh& mesh, int id, const glm::dvec2& uv, const glm::dvec2& per_x,
+                 const glm::dvec2& per_y) {
+        std::vector<Level>& levels = mipmaps_[{&mesh, id}];
+        if (levels.empty()) levels = levels_of(mesh, id);
+        const int last = static_cast<int>(levels.size()) - 1;
+        const double side = levels[0].side;
+        const double shortest = std::log2(side * std::max(glm::length(per_x), glm::length(per_y)) / std::sqrt(2.0));
+        const double longest = std::log2(side * (glm::length(per_x) + glm::length(per_y)));
+        const int from = static_cast<int>(std::clamp(std::round(shortest - 0.1), 0.0, 1.0 * last));
+        const int to = static_cast<int>(std::clamp(std::round(longest + 0.1), 0.0, 1.0 * last));
+        constexpr double uv_steps = 1.0 / 2048;  // half floats have eleven bits
+        Shade shade{glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
+        for (int level = from; level <= to; ++level) {
+            for (const glm::dvec2& shift : places) {
+                const glm::dvec3 texel = levels[static_cast<std::size_t>(level)].between(
+                    uv + shift / off * (uv_steps * glm::max(glm::abs(uv), glm::dvec2(0.25))));
+                shade.low = glm::min(shade.low, texel);
+                shade.high = glm::max(shade.high, texel);
+            }
+        }
+        return shade;
+    }
+
+    void draw_splats(const Person& person) {
+        constexpr std::size_t few = 8;  // none of so few may happen to face the camera: they are seen from behind too
+        const motion::Mesh& mesh = person.figure->mesh();
+        const Surface& surface = person.figure->pose(person.slot, person.tick);
+        const std::vector<Figure::Look>& looks = person.figure->looks(person.points);
+        const bool both_sides = mesh.double_sided || person.points <= few;
+        for (std::size_t p = 0; p < person.points; ++p) {
+            const motion::SurfacePoint& spot = person.figure->points().surface[p];
+            glm::dvec3 position(0), normal(0);
+            const double share[] = {1.0 - spot.u - spot.v, spot.u, spot.v};
+            for (std::size_t corner = 0; corner < 3; ++corner) {
+                const std::uint32_t vertex = mesh.indices[3 * std::size_t{spot.triangle} + corner];
+                position += share[corner] * surface.positions[vertex];
+                normal += share[corner] * surface.normals[vertex];
+            }
+            const glm::dvec3 at = placed(person, position);
+            const glm::dvec3 facing = turned(person, glm::normalize(normal));
+            const double away = glm::dot(facing, glm::normalize(at));
+            if (!both_sides && away > edge_on) continue;
+            glm::dvec3 tint(0);
+            for (int t = 0; t < motion::tint_count; ++t)
+                tint += looks[p].tint[t] * tint_of(person, static_cast<motion::Tint>(t));
+            const Shade light = light_seen(facing, at, both_sides);
+            splat(person, at, both_sides || away < -edge_on,
+                  {stored(looks[p].albedo * tint * light.low), stored(looks[p].albedo * tint * light.high)});
+        }
+    }
+
+    // A square around the point's place in the picture, S pixels wide but no wider than a square as large as the
+    // person, of whom a quarter of the surface is seen. A point outside the picture has none of its square in it.
+    void splat(const Person& person, const glm::dvec3& at, bool certain, const Shade& shade) {
+        const glm::dvec3 h = homogeneous(at);
+        if (h.z < Camera::near) return;
+        const glm::dvec2 middle = glm::dvec2(h) / h.z;
+        const glm::dvec2 size(camera_.width, camera_.height);
+        if (glm::any(glm::lessThan(middle, glm::dvec2(-off))) || glm::any(glm::greaterThan(middle, size + off))) return;
+        if (glm::any(glm::lessThan(middle, glm::dvec2(off))) || glm::any(glm::greaterThan(middle, size - off)))
+            certain = false;
+        const double whole = std::sqrt(person.figure->area() / 4) * person.scale * camera_.pixels_per_metre(h.z);
+        const double side = std::clamp(whole, 1.0, std::max(1.0, scene_.splat_size));
+        // Software rasterisers round squares to whole pixels.
+        constexpr double exact = 1e-3;
+        const double least = std::floor(side + exact) / 2, most = std::ceil(side - exact) / 2;
+        for_each_pixel(middle - most, middle + most, [&](int x, int y) {
+            for (std::size_t place = 0; place < places.size(); ++place) {
+                const glm::dvec2 away = glm::abs(glm::dvec2(x + 0.5, y + 0.5) + places[place] - middle);
+                const double reach = std::max(away.x, away.y);
+                if (reach < most) put(x, y, place, h.z, certain && reach < least, [&] { return shade; });
+            }
+        });
+    }
+
+    void draw_structure() {
+        const scene::StaticMesh& mesh = *scene_.structure;
+        for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+            const scene::StaticVertex* corner[3];
+            for (std::size_t k = 0; k < 3; ++k) corner[k] = &mesh.vertices[mesh.indices[i + k]];
+            std::array<glm::dvec3, 3> at;
+            for (std::size_t k = 0; k < 3; ++k) at[k] = glm::dvec3(corner[k]->position) - camera_.position;
+            const bool is_ground = corner[2]->color.a == static_cast<std::uint8_t>(scene::Surface::ground);
+            const glm::dvec3 painted = stored(linear(corner[2]->color) * light_on(corner[2]->normal));
+            triangle(at, false, [&](const glm::dvec3& share, const glm::dvec3& right, const glm::dvec3& down) {
+                if (!is_ground) return Shade{painted, painted};
+                const auto xz = [&](const glm::dvec3& by) {
+                    const glm::dvec3 world = camera_.position + by.x * at[0] + by.y * at[1] + by.z * at[2];
+                    return glm::dvec2(world.x, world.z);
+                };
+                const glm::dvec2 here = xz(share);
+                const glm::dvec2 footprint = glm::abs(xz(right) - here) + glm::abs(xz(down) - here);
+                return ground(scene_, here, footprint_share * std::max(footprint.x, footprint.y));
+            });
+        }
+    }
+
+    // How far a line's fading may reach, in footprints of a pixel.
+    static constexpr double footprint_share = 1.5;
+
+    void draw_sky() {
+        for (int y = 0; y < camera_.height; ++y) {
+            for (int x = 0; x < camera_.width; ++x) {
+                const std::size_t pixel = static_cast<std::size_t>(y) * camera_.width + x;
+                picture_.sky[pixel] = picture_.shades[pixel].empty();
+                for (std::size_t place = 0; place < places.size(); ++place) {
+                    if (nearest_[pixel * places.size() + place] < INFINITY) continue;
+                    const Shade shown = sky(camera_.ray(x + 0.5 + places[place].x, y + 0.5 + places[place].y));
+                    add(pixel, shown);
+                    if (place == 0) picture_.colors[pixel] = shown.low;
+                }
+            }
+        }
+    }
+
+    const Scene& scene_;
+    const Camera& camera_;
+    bool collecting_ = false;
+    std::vector<double> nearest_;  // [m] by pixel, then place
+    std::map<std::pair<const motion::Mesh*, int>, std::vector<Level>> mipmaps_;
+    Picture picture_;
+};
+
+double beyond(const Shade& shade, const glm::dvec3& color) {
+    const glm::dvec3 by = glm::max(glm::max(shade.low - color, color - shade.high), glm::dvec3(0));
+    return std::max({by.x, by.y, by.z});
+}
+
+}  // namespace
+
+Picture draw(const Scene& scene) {
+    return Canvas(scene).draw();
+}
+
+render::Image Picture::image() const {
+    render::Image image{width, height, {}};
+    for (const glm::dvec3& color : colors)
+        for (int channel = 0; channel < 3; ++channel)
+            image.pixels.push_back(static_cast<std::uint8_t>(std::lround(color[channel])));
+    return image;
+}
+
+double distance(const render::Image& image, const Picture& picture, int x, int y) {
+    const std::size_t pixel = static_cast<std::size_t>(y) * picture.width + x;
+    const std::uint8_t* rgb = &image.pixels[3 * pixel];
+    double least = INFINITY;
+    for (const Shade& shade : picture.shades[pixel])
+        least = std::min(least, beyond(shade, glm::dvec3(rgb[0], rgb[1], rgb[2])));
+    return least;
+}
+
+Comparison compare(const render::Image& image, const Picture& picture) {
+    Comparison result;
+    result.pixels = picture.width * picture.height;
+    for (int y = 0; y < picture.height; ++y) {
+        for (int x = 0; x < picture.width; ++x) {
+            const std::vector<Shade>& shades = picture.shades[static_cast<std::size_t>(y) * picture.width + x];
+            glm::dvec3 low(INFINITY), high(-INFINITY);
+            for (const Shade& shade : shades) {
+                low = glm::min(low, shade.low);
+                high = glm::max(high, shade.high);
+            }
+            const glm::dvec3 spread = high - low;
+            const bool plain = std::max({spread.x, spread.y, spread.z}) < tolerance;
+            const double error = distance(image, picture, x, y);
+            const bool sky = picture.sky[static_cast<std::size_t>(y) * picture.width + x];
+            result.plain += plain;
+            result.surface += !sky;
+            result.plain_surface += plain && !sky;
+            result.wrong += error > tolerance;
+            result.wrong_plain += plain && error > tolerance;
+            result.mean += error / result.pixels;
+            if (error <= result.worst) continue;
+            result.worst = error;
+            result.worst_x = x;
+            result.worst_y = y;
+        }
+    }
+    return result;
+}
+
+std::string Comparison::text() const {
+    char line[240];
+    std::snprintf(
+        line, sizeof line,
+        "%d of %d pixels wrong, %d of the %d plain ones, worst by %.0f of 255 at (%d, %d), mean %.3f; surface in "
+        "%d, plain in %d",
+        wrong, pixels, wrong_plain, plain, worst, worst_x, worst_y, mean, surface, plain_surface);
+    return line;
+}
+
+}  // namespace reference

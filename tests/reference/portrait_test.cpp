@@ -1,0 +1,161 @@
+// One person at a time before the sky: pose, place, colour and light of every pixel.
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <numbers>
+
+#include "pointsample/mesh_file.h"
+#include "scene/cast.h"
+#include "scene/person.h"
+#include "tests/reference/harlequin.h"
+#include "tests/reference/studio.h"
+#include "tests/render/gl_test.h"
+
+namespace {
+
+using reference::Comparison;
+using reference::Model;
+using reference::Person;
+
+constexpr int width = 200, height = 160;
+const scene::StaticMesh nothing{{{}, {}, {}}, {0, 0, 0}, {}};
+
+class Portrait : public tests::GlTest {
+protected:
+    // Everybody stands here, turned a little, in a world that is not around the origin.
+    static Person sitter(const Model& model, int slot, std::int64_t tick) {
+        Person person;
+        person.figure = &model.figure;
+        person.slot = slot;
+        person.tick = tick;
+        person.origin = {31.5, 4.25, -47};
+        person.yaw = 0.7;
+        person.scale = 1.7 / model.figure.height();
+        person.palette = reference::motley;
+        return person;
+    }
+
+    // From `azimuth` [rad] around the person, 0 = before them, `distance` [m] from their middle.
+    static scene::CameraPose camera(const Person& person, double azimuth, double elevation, double distance) {
+        const double turn = person.yaw + azimuth;
+        scene::CameraPose pose;
+        pose.target = person.origin + glm::dvec3(0, 0.85, 0);
+        pose.position = pose.target + distance * glm::dvec3(std::sin(turn) * std::cos(elevation), std::sin(elevation),
+                                                            std::cos(turn) * std::cos(elevation));
+        return pose;
+    }
+
+    // Where all is edges anything may be shown: see that it isn't so.
+    void TearDown() override { EXPECT_GE(plain_surface_, surface_ / 2); }
+
+    void expect_alike(render::Renderer& renderer, const Model& model, const std::vector<Person>& people,
+                      const scene::CameraPose& pose, double splat_size, const std::string& what) {
+        const reference::Scene scene{{pose, width, height}, people, nullptr, {}, 0, splat_size};
+        const render::View view = render::make_view(pose, width, height);
+        renderer.draw(view, reference::selection_of(people, model, view), splat_size);
+        const reference::Picture expected = reference::draw(scene);
+        const Comparison found = reference::compare(renderer.read_image(), expected);
+        // Slivers thinner than the places that the reference looks at are left.
+        EXPECT_LE(found.wrong_plain, 1) << what << ": " << found.text();
+        EXPECT_LE(found.wrong, found.pixels / 2000) << what << ": " << found.text();
+        surface_ += found.surface;
+        plain_surface_ += found.plain_surface;
+    }
+
+    void expect_alike_all_around(const Model& model) {
+        render::Renderer renderer(nothing, {}, std::vector{model.assets()}, width, height);
+        const int last = std::max(0, static_cast<int>(model.clips.size()) - 1);
+        for (const Person& person : {sitter(model, 0, 0), sitter(model, last, 17)}) {
+            for (const double distance : {0.35, 1.2, 3.0, 12.0, 90.0, 400.0}) {
+                for (int side = 0; side < 6; ++side) {
+                    const double azimuth = side * std::numbers::pi / 3 + 0.1;
+                    const std::string what = model.character.name + " from " + std::to_string(distance) + " m, side " +
+                                             std::to_string(side) + ", clip " + std::to_string(person.slot);
+                    expect_alike(renderer, model, {person}, camera(person, azimuth, 0.4 * std::sin(7 * side), distance),
+                                 0, what);
+                }
+            }
+        }
+    }
+
+    void expect_alike_by_every_number_of_points(const Model& model) {
+        render::Renderer renderer(nothing, {}, std::vector{model.assets()}, width, height);
+        const int last = std::max(0, static_cast<int>(model.clips.size()) - 1);
+        for (std::size_t power = 1; power <= model.points.size(); power *= 2) {
+            for (const std::size_t points : {power, power + power / 2}) {
+                if (points > model.points.size()) break;
+                for (Person person : {sitter(model, 0, 5), sitter(model, last, 23)}) {
+                    person.points = points;
+                    for (const double distance : {2.5, 14.0, 120.0}) {
+                        const double side = static_cast<double>(points) + person.slot;
+                        const double splat_size = std::clamp(std::floor(160 / distance / std::sqrt(points)), 1.0, 16.0);
+                        expect_alike(renderer, model, {person}, camera(person, side, 0.2, distance), splat_size,
+                                     model.character.name + " by " + std::to_string(points) + " points, S " +
+                                         std::to_string(splat_size) + " px from " + std::to_string(distance) + " m");
+                    }
+                }
+            }
+        }
+    }
+
+private:
+    int surface_ = 0, plain_surface_ = 0;  // [px] over all pictures of a test
+};
+
+std::unique_ptr<Model> built_in() {
+    motion::Character person = scene::make_person();
+    const std::vector<int> clips = scene::cast(person).clips;
+    return std::make_unique<Model>(std::move(person), clips, 600);
+}
+
+std::unique_ptr<Model> harlequin(bool open) {
+    return std::make_unique<Model>(reference::make_harlequin(open), std::vector{0, 1}, 800);
+}
+
+std::unique_ptr<Model> from_file(const std::string& name) {
+    const std::filesystem::path file = std::filesystem::path(GRANDSTAND_SHARED) / "assets" / name;
+    if (!std::filesystem::exists(file)) return nullptr;
+    motion::Character character = pointsample::load_mesh(file);
+    const std::vector<int> clips = scene::cast(character).clips;
+    const std::size_t points = character.mesh.triangle_count() / 2;
+    return std::make_unique<Model>(std::move(character), clips, points);
+}
+
+class RealPortrait : public Portrait, public testing::WithParamInterface<const char*> {};
+
+TEST_P(RealPortrait, IsTheReferences) {
+    const std::unique_ptr<Model> model = from_file(GetParam());
+    if (!model) GTEST_SKIP() << "NO ../shared/assets/" << GetParam() << ", IT IS NOT DRAWN";
+    expect_alike_all_around(*model);
+}
+
+TEST_P(RealPortrait, IsTheReferencesByAnyNumberOfPoints) {
+    const std::unique_ptr<Model> model = from_file(GetParam());
+    if (!model) GTEST_SKIP() << "NO ../shared/assets/" << GetParam() << ", IT IS NOT DRAWN";
+    expect_alike_by_every_number_of_points(*model);
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, RealPortrait,
+                         testing::Values("CesiumMan/CesiumMan.glb", "Fox/Fox.glb", "KayKitMage/Mage.glb",
+                                         "QuaterniusKnight/KnightCharacter.glb", "RaylibRobot/robot.glb"));
+
+TEST_F(Portrait, OfThePersonIsTheReferences) {
+    expect_alike_all_around(*built_in());
+}
+TEST_F(Portrait, OfAHarlequinIsTheReferences) {
+    expect_alike_all_around(*harlequin(false));
+}
+TEST_F(Portrait, OfAnOpenHarlequinIsTheReferences) {
+    expect_alike_all_around(*harlequin(true));
+}
+TEST_F(Portrait, OfThePersonIsTheReferencesByAnyNumberOfPoints) {
+    expect_alike_by_every_number_of_points(*built_in());
+}
+TEST_F(Portrait, OfAHarlequinIsTheReferencesByAnyNumberOfPoints) {
+    expect_alike_by_every_number_of_points(*harlequin(false));
+}
+TEST_F(Portrait, OfAnOpenHarlequinIsTheReferencesByAnyNumberOfPoints) {
+    expect_alike_by_every_number_of_points(*harlequin(true));
+}
+
+}  // namespace

@@ -1,0 +1,77 @@
+// Whole frames of the stadium, chosen by the selector and drawn by the renderer: who is where, how old their motion is,
+// by how many points they are drawn, and what stands around them.
+#include <memory>
+#include <string>
+
+#include "tests/reference/stadium.h"
+#include "tests/render/gl_test.h"
+
+namespace {
+
+using reference::Comparison;
+using sfsm::Decision;
+using sfsm::State;
+
+constexpr const char* presets[] = {"still", "close", "medium", "remote"};
+
+class StadiumPicture : public tests::GlTest {
+protected:
+    static constexpr std::int64_t tick = 1234;
+
+    void SetUp() override {
+        tests::GlTest::SetUp();
+        if (IsSkipped()) return;
+        static const tests::SmallScene scene(600);
+        stadium_ = std::make_unique<reference::Stadium>(scene, 320, 180);
+    }
+    void TearDown() override { stadium_.reset(); }
+
+    void expect_alike(const scene::CameraPose& pose, const Decision& decision, const std::string& what) {
+        const reference::Frame frame = stadium_->shoot(pose, decision, tick);
+        const Comparison found = reference::compare(frame.drawn, frame.expected);
+        // Slivers thinner than the places that the reference looks at are left.
+        EXPECT_LE(found.wrong_plain, found.pixels / 10000) << what << ": " << found.text();
+        EXPECT_LE(found.wrong, found.pixels / 4000) << what << ": " << found.text();
+        EXPECT_GT(found.plain, found.pixels / 12) << what << ": " << found.text();
+    }
+
+    std::unique_ptr<reference::Stadium> stadium_;
+};
+
+TEST_F(StadiumPicture, IsTheReferencesInEveryPreset) {
+    for (const char* preset : presets) expect_alike(stadium_->preset(preset), {}, preset);
+}
+
+TEST_F(StadiumPicture, IsTheReferencesWhenSomeMoveLess) {
+    for (const char* preset : presets)
+        for (const double distance : {1.0, 30.0})
+            expect_alike(stadium_->preset(preset), {State::slowed, distance, 0}, preset);
+}
+
+TEST_F(StadiumPicture, IsTheReferencesByPointsOfAnySize) {
+    for (const char* preset : presets)
+        for (const double size : {0.7, 1.0, 2.0, 3.4, 8.0, 20.0})
+            expect_alike(stadium_->preset(preset), {State::points, 40, size},
+                         std::string(preset) + ", S = " + std::to_string(size));
+}
+
+TEST_F(StadiumPicture, IsTheReferencesAllAlongTheTour) {
+    for (double seconds = 2.5; seconds < 60; seconds += 6)
+        expect_alike(stadium_->preset("roam", seconds), {}, "roam at " + std::to_string(seconds));
+}
+
+// Up to the sun, down to the ground, along it, and from a pixel's width of field to nearly all that is in front.
+TEST_F(StadiumPicture, IsTheReferencesWhereverTheCameraLooks) {
+    const glm::dvec3 pitch(3, 1.7, 9), above(-20, 120, 10);
+    const auto looking = [](glm::dvec3 from, glm::dvec3 along, double degrees) {
+        return scene::CameraPose{from, from + along, glm::radians(degrees)};
+    };
+    expect_alike(looking(pitch, {0.45, 0.72, 0.38}, 40), {}, "at the sun");
+    expect_alike(looking(above, {0, -1, 0}, 60), {}, "straight down");
+    expect_alike(looking(pitch, {0, 1, 0}, 60), {}, "straight up");
+    expect_alike(looking(pitch, {1, -0.2, 0.3}, 20), {}, "along the pitch");
+    expect_alike(looking(pitch, {0.2, 0.1, 1}, 140), {}, "wide");
+    expect_alike(looking({-60, 300, 1500}, {0.04, -0.19, -1}, 4), {}, "from afar");
+}
+
+}  // namespace

@@ -1,0 +1,33 @@
+// A character and a renderer, for pictures of people who stand where a test puts them.
+#pragma once
+
+#include <vector>
+
+#include "pointsample/sample.h"
+#include "render/frame.h"
+#include "tests/reference/picture.h"
+
+namespace reference {
+
+// Everything a renderer needs of one character, and the reference's own idea of it.
+struct Model {
+    motion::Character character;
+    std::vector<int> clips;
+    pointsample::PointModel points;
+    motion::PoseTable poses;
+    Figure figure;
+
+    Model(motion::Character from, std::vector<int> played, std::size_t point_count);
+    Model(const Model&) = delete;
+    Model& operator=(const Model&) = delete;
+
+    render::FigureAssets assets() const { return {&character.mesh, &poses, &points}; }
+};
+
+// Whom a renderer is to draw, as it takes it: one batch a person. All are of one character, number 0.
+render::Selection selection_of(std::span<const Person> people, const Model& model, const render::View& view);
+
+// Colours of which no two could be taken for one another.
+inline const scene::Palette motley{{230, 60, 50, 255}, {40, 200, 70, 255}, {60, 80, 240, 255}, {240, 220, 60, 255}};
+
+}  // namespace reference

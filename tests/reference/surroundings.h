@@ -1,0 +1,22 @@
+// Light, sky and ground of a clear afternoon.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "tests/reference/picture.h"
+
+namespace reference {
+
+// Linear light on a surface with this unit normal, in the open.
+glm::dvec3 light_on(const glm::dvec3& normal);
+
+// Linear light to a stored colour [0, 255]; the picture's curve is a square root.
+glm::dvec3 stored(const glm::dvec3& linear);
+
+// Along a ray of any length.
+Shade sky(const glm::dvec3& ray);
+
+// At world x, z, where a pixel may look anywhere within `blur` [m]. `scene` says where the track is.
+Shade ground(const Scene& scene, const glm::dvec2& xz, double blur);
+
+}  // namespace reference
