@@ -88,10 +88,10 @@ void add_sheet(motion::Mesh& mesh) {
 }
 
 // No two texels of a row alike, and none of a column.
-motion::Texture make_texture(int side, glm::ivec3 step) {
-    motion::Texture texture{side, side, {}};
-    for (int y = 0; y < side; ++y)
-        for (int x = 0; x < side; ++x)
+motion::Texture make_texture(int width, int height, glm::ivec3 step) {
+    motion::Texture texture{width, height, {}};
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
             texture.texels.emplace_back(70 + (step.x * x + 11 * y) % 180, 70 + (step.y * y + 23 * x) % 180,
                                         70 + (step.z * (x + 2 * y)) % 180, 255);
     return texture;
@@ -143,7 +143,7 @@ motion::Character make_harlequin(bool open) {
     motion::Character harlequin;
     harlequin.name = open ? "open harlequin" : "harlequin";
     motion::Mesh& mesh = harlequin.mesh;
-    mesh.textures = {make_texture(8, {37, 53, 29}), make_texture(16, {61, 17, 43})};
+    mesh.textures = {make_texture(8, 8, {37, 53, 29}), make_texture(24, 10, {61, 17, 43})};
     add_box(mesh, {{0, 0.9f, 0}, {0.28f, 0.45f, 0.17f}, root, chest, motion::no_texture, Tint::skin});
     add_box(mesh, {{0.05f, 1.55f, 0.05f}, {0.14f, 0.18f, 0.16f}, chest, chest, 0});
     add_box(mesh, {{0.45f, 1.1f, 0.1f}, {0.12f, 0.35f, 0.1f}, chest, chest, 1});

@@ -119,7 +119,7 @@ private:
         if (depth > as_good_as_near(nearest)) return;
         const Shade shown = shade();
         add(pixel, shown);
-        if (place == 0 && depth <= nearest) picture_.colors[pixel] = (shown.low + shown.high) / 2.0;
+        if (place == 0 && depth <= nearest) picture_.colors[pixel] = shown.best;
     }
 
     void add(std::size_t pixel, const Shade& shade) {
@@ -166,9 +166,9 @@ private:
     static Shade light_seen(const glm::dvec3& normal, const glm::dvec3& at, bool both_sides) {
         const double facing = -glm::dot(normal, glm::normalize(at));
         const glm::dvec3 front = light_on(normal), back = light_on(-normal);
-        if (!both_sides || facing > edge_on) return {front, front};
-        if (facing < -edge_on) return {back, back};
-        return {glm::min(front, back), glm::max(front, back)};
+        if (!both_sides || facing > edge_on) return Shade::exactly(front);
+        if (facing < -edge_on) return Shade::exactly(back);
+        return Shade::between(glm::min(front, back), glm::max(front, back));
     }
 
     void draw_mesh(const Person& person) {
@@ -192,15 +192,15 @@ private:
                     const auto uv = [&](const glm::dvec3& by) {
                         return blend(glm::dvec2(mesh.uvs[a]), glm::dvec2(mesh.uvs[b]), glm::dvec2(mesh.uvs[c]), by);
                     };
-                    Shade texel{glm::dvec3(1), glm::dvec3(1)};
+                    Shade texel = Shade::exactly(glm::dvec3(1));
                     if (mesh.texture_ids[c] != motion::no_texture)
                         texel =
                             texels(mesh, mesh.texture_ids[c], uv(share), uv(right) - uv(share), uv(down) - uv(share));
                     const glm::dvec3 own = blend(albedo[a], albedo[b], albedo[c], share);
-                    return Shade{
+                    return Shade::between(
                         stored(own * texel.low * texel.low * blend(light[a].low, light[b].low, light[c].low, share)),
                         stored(own * texel.high * texel.high *
-                               blend(light[a].high, light[b].high, light[c].high, share))};
+                               blend(light[a].high, light[b].high, light[c].high, share)));
                 });
         }
     }
@@ -267,7 +267,7 @@ private:
         const int from = static_cast<int>(std::clamp(std::round(shortest - 0.1), 0.0, 1.0 * last));
         const int to = static_cast<int>(std::clamp(std::round(longest + 0.1), 0.0, 1.0 * last));
         constexpr double uv_steps = 1.0 / 2048;  // half floats have eleven bits
-        Shade shade{glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
+        Shade shade = Shade::between(glm::dvec3(INFINITY), glm::dvec3(-INFINITY));
         for (int level = from; level <= to; ++level) {
             for (const glm::dvec2& shift : places) {
                 const glm::dvec3 texel = levels[static_cast<std::size_t>(level)].between(
@@ -303,7 +303,8 @@ private:
                 tint += looks[p].tint[t] * tint_of(person, static_cast<motion::Tint>(t));
             const Shade light = light_seen(facing, at, both_sides);
             splat(person, at, both_sides || away < -edge_on,
-                  {stored(looks[p].albedo * tint * light.low), stored(looks[p].albedo * tint * light.high)});
+                  Shade::between(stored(looks[p].albedo * tint * light.low),
+                                 stored(looks[p].albedo * tint * light.high)));
         }
     }
 
@@ -341,14 +342,17 @@ private:
             const bool is_ground = corner[2]->color.a == static_cast<std::uint8_t>(scene::Surface::ground);
             const glm::dvec3 painted = stored(linear(corner[2]->color) * light_on(corner[2]->normal));
             triangle(at, false, [&](const glm::dvec3& share, const glm::dvec3& right, const glm::dvec3& down) {
-                if (!is_ground) return Shade{painted, painted};
+                if (!is_ground) return Shade::exactly(painted);
                 const auto xz = [&](const glm::dvec3& by) {
                     const glm::dvec3 world = camera_.position + by.x * at[0] + by.y * at[1] + by.z * at[2];
                     return glm::dvec2(world.x, world.z);
                 };
                 const glm::dvec2 here = xz(share);
-                const glm::dvec2 footprint = glm::abs(xz(right) - here) + glm::abs(xz(down) - here);
-                return ground(scene_, here, footprint_share * std::max(footprint.x, footprint.y));
+                const glm::dvec2 to_right = xz(right) - here, to_below = xz(down) - here;
+                const glm::dvec2 footprint = glm::abs(to_right) + glm::abs(to_below);
+                Shade shown = ground(scene_, here, footprint_share * std::max(footprint.x, footprint.y));
+                shown.best = ground_seen(scene_, here, to_right, to_below);
+                return shown;
             });
         }
     }
@@ -365,7 +369,7 @@ private:
                     if (nearest_[pixel * places.size() + place] < INFINITY) continue;
                     const Shade shown = sky(camera_.ray(x + 0.5 + places[place].x, y + 0.5 + places[place].y));
                     add(pixel, shown);
-                    if (place == 0) picture_.colors[pixel] = shown.low;
+                    if (place == 0) picture_.colors[pixel] = shown.best;
                 }
             }
         }
@@ -405,6 +409,22 @@ double distance(const render::Image& image, const Picture& picture, int x, int y
     for (const Shade& shade : picture.shades[pixel])
         least = std::min(least, beyond(shade, glm::dvec3(rgb[0], rgb[1], rgb[2])));
     return least;
+}
+
+double worst_mean(const render::Image& image, const Picture& picture, int side) {
+    double worst = 0;
+    for (int top = 0; top + side <= picture.height; top += side) {
+        for (int left = 0; left + side <= picture.width; left += side) {
+            glm::dvec3 error(0);
+            for (int i = 0; i < side * side; ++i) {
+                const std::size_t pixel = static_cast<std::size_t>(top + i / side) * picture.width + left + i % side;
+                const std::uint8_t* rgb = &image.pixels[3 * pixel];
+                error += (glm::dvec3(rgb[0], rgb[1], rgb[2]) - picture.colors[pixel]) / (1.0 * side * side);
+            }
+            worst = std::max({worst, std::abs(error.x), std::abs(error.y), std::abs(error.z)});
+        }
+    }
+    return worst;
 }
 
 Comparison compare(const render::Image& image, const Picture& picture) {

@@ -19,11 +19,15 @@ namespace reference {
 // choice: which mipmap, which side of an edge-on sheet, how a line thinner than a pixel is faded.
 struct Shade {
     glm::dvec3 low, high;
+    glm::dvec3 best;  // what is right on average
+
+    static Shade exactly(const glm::dvec3& color) { return {color, color, color}; }
+    static Shade between(const glm::dvec3& low, const glm::dvec3& high) { return {low, high, (low + high) / 2.0}; }
 };
 
 struct Picture {
     int width = 0, height = 0;
-    std::vector<glm::dvec3> colors;          // at the pixels' centres, rows from the top
+    std::vector<glm::dvec3> colors;          // the best at the pixels' centres, rows from the top
     std::vector<std::vector<Shade>> shades;  // what each may show; never empty
     std::vector<bool> sky;                   // nothing else is seen in it
 
@@ -50,6 +54,10 @@ struct Comparison {
 inline constexpr double tolerance = 4;  // [of 255] two for packed normals, one for bytes of looks, a half for rounding
 
 Comparison compare(const render::Image& image, const Picture& picture);
+
+// The farthest that the mean colour of any square of `side` [px] is off from the reference's best [of 255]: what is
+// drawn finer than a pixel is right on average, wherever in a pixel it falls.
+double worst_mean(const render::Image& image, const Picture& picture, int side);
 
 // How far a pixel is off from what it may show [of 255].
 double distance(const render::Image& image, const Picture& picture, int x, int y);

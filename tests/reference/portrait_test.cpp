@@ -48,11 +48,12 @@ protected:
     // Where all is edges anything may be shown: see that it isn't so.
     void TearDown() override { EXPECT_GE(plain_surface_, surface_ / 2); }
 
-    void expect_alike(render::Renderer& renderer, const Model& model, const std::vector<Person>& people,
-                      const scene::CameraPose& pose, double splat_size, const std::string& what) {
+    void expect_alike(render::Renderer& renderer, const std::vector<const Model*>& models,
+                      const std::vector<Person>& people, const scene::CameraPose& pose, double splat_size,
+                      const std::string& what) {
         const reference::Scene scene{{pose, width, height}, people, nullptr, {}, 0, splat_size};
         const render::View view = render::make_view(pose, width, height);
-        renderer.draw(view, reference::selection_of(people, model, view), splat_size);
+        renderer.draw(view, reference::selection_of(people, models, view), splat_size);
         const reference::Picture expected = reference::draw(scene);
         const Comparison found = reference::compare(renderer.read_image(), expected);
         // Slivers thinner than the places that the reference looks at are left.
@@ -71,8 +72,8 @@ protected:
                     const double azimuth = side * std::numbers::pi / 3 + 0.1;
                     const std::string what = model.character.name + " from " + std::to_string(distance) + " m, side " +
                                              std::to_string(side) + ", clip " + std::to_string(person.slot);
-                    expect_alike(renderer, model, {person}, camera(person, azimuth, 0.4 * std::sin(7 * side), distance),
-                                 0, what);
+                    expect_alike(renderer, {&model}, {person},
+                                 camera(person, azimuth, 0.4 * std::sin(7 * side), distance), 0, what);
                 }
             }
         }
@@ -89,7 +90,7 @@ protected:
                     for (const double distance : {2.5, 14.0, 120.0}) {
                         const double side = static_cast<double>(points) + person.slot;
                         const double splat_size = std::clamp(std::floor(160 / distance / std::sqrt(points)), 1.0, 16.0);
-                        expect_alike(renderer, model, {person}, camera(person, side, 0.2, distance), splat_size,
+                        expect_alike(renderer, {&model}, {person}, camera(person, side, 0.2, distance), splat_size,
                                      model.character.name + " by " + std::to_string(points) + " points, S " +
                                          std::to_string(splat_size) + " px from " + std::to_string(distance) + " m");
                     }
@@ -138,6 +139,29 @@ TEST_P(RealPortrait, IsTheReferencesByAnyNumberOfPoints) {
 INSTANTIATE_TEST_SUITE_P(Files, RealPortrait,
                          testing::Values("CesiumMan/CesiumMan.glb", "Fox/Fox.glb", "KayKitMage/Mage.glb",
                                          "QuaterniusKnight/KnightCharacter.glb", "RaylibRobot/robot.glb"));
+
+// Neighbours in front of and behind one another, some as triangles, some as points, whose batches follow one another in
+// every way there is.
+TEST_F(Portrait, OfAGroupIsTheReferences) {
+    const std::unique_ptr<Model> plain = built_in(), closed = harlequin(false), open = harlequin(true);
+    const std::vector<const Model*> models{plain.get(), closed.get(), open.get()};
+    render::Renderer renderer(nothing, {}, std::vector{plain->assets(), closed->assets(), open->assets()}, width,
+                              height);
+    std::vector<Person> group;
+    for (int i = 0; i < 18; ++i) {
+        Person person = sitter(*models[static_cast<std::size_t>(i / 2 * 5 % 3)], i % 2, 7 * i % 24);
+        person.points = i % 3 == 0 ? 0 : i % 3 == 1 ? 6 : 384;
+        person.origin += glm::dvec3(1.1 * (i % 6) - 2.5, 0.1 * (i % 4), 1.5 * (i / 6));
+        person.yaw += i;
+        person.scale *= 0.8 + 0.03 * i;
+        std::swap(person.palette.shirt, i % 2 == 0 ? person.palette.hair : person.palette.trousers);
+        group.push_back(person);
+    }
+    const Person middle = sitter(*plain, 0, 0);
+    for (const double azimuth : {0.0, 2.0, 4.0})
+        for (const double distance : {3.0, 7.0, 25.0})
+            expect_alike(renderer, models, group, camera(middle, azimuth, 0.3, distance), 4, "a group");
+}
 
 TEST_F(Portrait, OfThePersonIsTheReferences) {
     expect_alike_all_around(*built_in());

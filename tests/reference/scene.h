@@ -44,7 +44,7 @@ public:
 
     const motion::Mesh& mesh() const { return *mesh_; }
     const pointsample::PointModel& points() const { return *points_; }
-    const Surface& pose(int slot, std::int64_t tick) const;  // at a whole sixtieth of a second of a clip's own time
+    const Surface& pose(int slot, std::int64_t tick) const;  // [1/60 s] of the clip's own time, within it
     double height() const { return height_; }                // [model units] in the first clip's first pose
     double middle() const { return middle_; }                // [model units] halfway up all poses
     double area() const { return area_; }                    // [model units^2] of the pose that has most

@@ -60,6 +60,21 @@ TEST_F(StadiumPicture, IsTheReferencesAllAlongTheTour) {
         expect_alike(stadium_->preset("roam", seconds), {}, "roam at " + std::to_string(seconds));
 }
 
+TEST_F(StadiumPicture, IsRightOnAverageWhereLinesAreFinerThanPixels) {
+    const auto expect_right = [&](const scene::CameraPose& pose, const std::string& what) {
+        constexpr int side = 20;             // [px] of the squares that are averaged
+        constexpr double fading_error = 10;  // [of 255] a line is faded as if its pixels were square
+        const reference::Frame frame = stadium_->shoot(pose, {}, tick);
+        EXPECT_LT(reference::worst_mean(frame.drawn, frame.expected, side), fading_error) << what;
+    };
+    expect_right(stadium_->preset("medium"), "medium");
+    expect_right(stadium_->preset("remote"), "remote");
+    for (const double seconds : {12.0, 20.0, 36.0})
+        expect_right(stadium_->preset("roam", seconds), "roam at " + std::to_string(seconds));
+    expect_right({{0, 40, 0}, {0, 0, 0}, glm::radians(60.0)}, "the pitch from above");
+    expect_right({{44, 1.7, 40}, {20, 0, 36}, glm::radians(40.0)}, "along the lanes");
+}
+
 // Up to the sun, down to the ground, along it, and from a pixel's width of field to nearly all that is in front.
 TEST_F(StadiumPicture, IsTheReferencesWhereverTheCameraLooks) {
     const glm::dvec3 pitch(3, 1.7, 9), above(-20, 120, 10);

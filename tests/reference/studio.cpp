@@ -1,5 +1,6 @@
 #include "tests/reference/studio.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace reference {
@@ -12,7 +13,8 @@ Model::Model(motion::Character from, std::vector<int> played, std::size_t point_
     poses = motion::bake_poses(character, clips, points.surface, byte_budget);
 }
 
-render::Selection selection_of(std::span<const Person> people, const Model& model, const render::View& view) {
+render::Selection selection_of(std::span<const Person> people, std::span<const Model* const> models,
+                               const render::View& view) {
     constexpr double snorm = 32767;
     render::Selection selection;
     for (const Person& person : people) {
@@ -22,8 +24,11 @@ render::Selection selection_of(std::span<const Person> people, const Model& mode
         instance.sin_yaw = static_cast<std::int16_t>(std::lround(snorm * std::sin(person.yaw)));
         instance.cos_yaw = static_cast<std::int16_t>(std::lround(snorm * std::cos(person.yaw)));
         instance.palette = person.palette;
-        const auto pose = static_cast<std::uint32_t>(model.poses.pose_at(person.slot, person.tick));
-        selection.batches.push_back({0, pose, static_cast<std::uint32_t>(person.points),
+        const auto of = std::find_if(models.begin(), models.end(),
+                                     [&](const Model* model) { return &model->figure == person.figure; });
+        const auto character = static_cast<std::uint32_t>(of - models.begin());
+        const auto pose = static_cast<std::uint32_t>((*of)->poses.pose_at(person.slot, person.tick));
+        selection.batches.push_back({character, pose, static_cast<std::uint32_t>(person.points),
                                      static_cast<std::uint32_t>(selection.instances.size()), 1});
         selection.instances.push_back(instance);
     }

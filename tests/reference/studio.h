@@ -24,8 +24,10 @@ struct Model {
     render::FigureAssets assets() const { return {&character.mesh, &poses, &points}; }
 };
 
-// Whom a renderer is to draw, as it takes it: one batch a person. All are of one character, number 0.
-render::Selection selection_of(std::span<const Person> people, const Model& model, const render::View& view);
+// Whom a renderer is to draw, as it takes it: one batch a person, in their order. Each is of one of the models, whose
+// places are the characters' numbers.
+render::Selection selection_of(std::span<const Person> people, std::span<const Model* const> models,
+                               const render::View& view);
 
 // Colours of which no two could be taken for one another.
 inline const scene::Palette motley{{230, 60, 50, 255}, {40, 200, 70, 255}, {60, 80, 240, 255}, {240, 220, 60, 255}};

@@ -108,7 +108,7 @@ Shade sky(const glm::dvec3& ray) {
     const double disc = facing > 0.9996 ? 1 : 0;
     const glm::dvec3 color = haze + height * (zenith - haze) + (0.35 * std::pow(facing, 64) + disc) * glare;
     const glm::dvec3 shown = 255.0 * glm::clamp(color, 0.0, 1.0);
-    return {shown, shown};
+    return Shade::exactly(shown);
 }
 
 Shade ground(const Scene& scene, const glm::dvec2& xz, double blur) {
@@ -135,7 +135,19 @@ Shade ground(const Scene& scene, const glm::dvec2& xz, double blur) {
         add_lined(hull, joints, blur, {0.19, 0.185, 0.18}, of_one({0.26, 0.25, 0.235}));
     }
     const glm::dvec3 light = from_sky + to_sun.y * sunlight;
-    return {stored(hull.low * light), stored(hull.high * light)};
+    return Shade::between(stored(hull.low * light), stored(hull.high * light));
+}
+
+glm::dvec3 ground_seen(const Scene& scene, const glm::dvec2& xz, const glm::dvec2& to_right,
+                       const glm::dvec2& to_below) {
+    constexpr int samples = 6;  // a side
+    glm::dvec3 sum(0);
+    for (int i = 0; i < samples * samples; ++i) {
+        const double x = (i % samples + 0.5) / samples - 0.5, y = (i / samples + 0.5) / samples - 0.5;
+        const glm::dvec3 code = ground(scene, xz + x * to_right + y * to_below, 0).best / 255.0;
+        sum += code * code / (1.0 * samples * samples);
+    }
+    return stored(sum);
 }
 
 }  // namespace reference

@@ -19,4 +19,8 @@ Shade sky(const glm::dvec3& ray);
 // At world x, z, where a pixel may look anywhere within `blur` [m]. `scene` says where the track is.
 Shade ground(const Scene& scene, const glm::dvec2& xz, double blur);
 
+// The same, the mean over one pixel whose middle is at `xz` and whose sides reach `to_right` and `to_below` [m].
+glm::dvec3 ground_seen(const Scene& scene, const glm::dvec2& xz, const glm::dvec2& to_right,
+                       const glm::dvec2& to_below);
+
 }  // namespace reference
