@@ -34,7 +34,7 @@ float Forecaster::bin_points(int bin) {
 }
 
 Forecaster::Forecaster(std::vector<Kind> kinds)
-    : kinds_(std::move(kinds)), points_(kinds_.size()), drawn_(kinds_.size()) {
+    : kinds_(std::move(kinds)), pixels_(kinds_.size()), points_(kinds_.size()), drawn_(kinds_.size()) {
     for (std::size_t kind = 0; kind < kinds_.size(); ++kind)
         for (int bin = 0; bin < point_bins; ++bin) drawn_[kind][bin] = kinds_[kind].drawn_points(bin_points(bin));
 }
@@ -42,15 +42,17 @@ Forecaster::Forecaster(std::vector<Kind> kinds)
 void Forecaster::begin(float range) {
     range_ = range;
     people_ = 0;
-    depths_.fill({});
+    depths_.fill(0);
+    for (auto& roles : pixels_) roles.fill({});
     for (auto& histogram : points_) histogram.fill(0);
 }
 
-void Forecaster::add(std::size_t kind, float depth, float points_at_unit_splat, float speed_px) {
+void Forecaster::add(std::size_t kind, scene::Role role, float depth, float points_at_unit_splat,
+                     float pixels_per_metre) {
     ++people_;
-    DepthBin& bin = depths_[std::min(static_cast<int>(depth / range_ * depth_bins), depth_bins - 1)];
-    ++bin.people;
-    bin.speed_px += speed_px;
+    const int bin = std::min(static_cast<int>(depth / range_ * depth_bins), depth_bins - 1);
+    ++depths_[bin];
+    pixels_[kind][static_cast<std::size_t>(role)][bin] += pixels_per_metre;
     ++points_[kind][point_bin(points_at_unit_splat)];
 }
 
@@ -60,7 +62,7 @@ sfsm::Forecast Forecaster::finish(float theta) {
     return {people_, motion_, splats_};
 }
 
-// Who moves every f-th frame is due in a frame with a chance of 1 / f, and (f - 1) / 2 frames old on average.
+// Who moves every f-th frame is due in a frame with a chance of 1 / f, and any of 0 to f - 1 frames old.
 void Forecaster::price_motion(float theta) {
     const double everybody = std::max<double>(1.0, static_cast<double>(people_));
     for (int step = 0; step < motion_steps; ++step) {
@@ -71,8 +73,10 @@ void Forecaster::price_motion(float theta) {
         for (int bin = 0; bin < depth_bins; ++bin) {
             const float depth = (static_cast<float>(bin) + 0.5f) / depth_bins * range_;
             const int period = step == 0 ? 1 : motion::update_period(depth, static_cast<float>(out.distance), theta);
-            updates += static_cast<double>(depths_[bin].people) / period;
-            loss += depths_[bin].speed_px * 0.5 * (period - 1) / motion::ticks_per_second;
+            updates += static_cast<double>(depths_[bin]) / period;
+            for (std::size_t kind = 0; kind < kinds_.size(); ++kind)
+                for (std::size_t role = 0; role < scene::role_count; ++role)
+                    loss += pixels_[kind][role][bin] * static_cast<double>(kinds_[kind].staleness[role][period]);
         }
         out.updates = std::llround(updates);
         out.loss_px = loss / everybody;

@@ -6,6 +6,8 @@
 #include <functional>
 #include <vector>
 
+#include "render/staleness.h"
+#include "scene/crowd.h"
 #include "sfsm/forecast.h"
 
 namespace render {
@@ -18,6 +20,7 @@ public:
         std::uint32_t triangles = 0;
         float density = 0;  // SelectOptions::density
         DrawnPoints drawn_points;
+        std::array<Staleness, scene::role_count> staleness{};  // by role
     };
 
     Forecaster() = default;
@@ -25,9 +28,9 @@ public:
 
     // Forgets the last frame; people come with depths in (0, range].
     void begin(float range);
-    // One visible person of a kind: view depth [m], points needed at S = 1 px, and how fast their surface crosses the
-    // picture [px/s].
-    void add(std::size_t kind, float depth, float points_at_unit_splat, float speed_px);
+    // One visible person of a kind: view depth [m], points needed at S = 1 px, and pixels that a metre covers at their
+    // depth.
+    void add(std::size_t kind, scene::Role role, float depth, float points_at_unit_splat, float pixels_per_metre);
     // `theta` is equation 1's. Valid until the next begin().
     sfsm::Forecast finish(float theta);
 
@@ -43,16 +46,15 @@ private:
     static int point_bin(float points);
     static float bin_points(int bin);
 
-    struct DepthBin {
-        std::int64_t people = 0;
-        double speed_px = 0;  // summed
-    };
+    // Of one kind and role: pixels per metre, summed over people, by depth.
+    using Pixels = std::array<double, depth_bins>;
     std::vector<Kind> kinds_;
     float range_ = 1;
     std::int64_t people_ = 0;
-    std::array<DepthBin, depth_bins> depths_;
-    std::vector<std::array<std::int32_t, point_bins>> points_;  // per kind: people by points needed at S = 1
-    std::vector<std::array<std::uint32_t, point_bins>> drawn_;  // per kind: points drawn for points needed
+    std::array<std::int64_t, depth_bins> depths_;                // people
+    std::vector<std::array<Pixels, scene::role_count>> pixels_;  // per kind
+    std::vector<std::array<std::int32_t, point_bins>> points_;   // per kind: people by points needed at S = 1
+    std::vector<std::array<std::uint32_t, point_bins>> drawn_;   // per kind: points drawn for points needed
     std::array<sfsm::MotionStep, motion_steps> motion_;
     std::array<sfsm::SplatStep, splat_steps> splats_;
 };

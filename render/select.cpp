@@ -17,23 +17,6 @@ std::int16_t snorm16(float value) {
     return static_cast<std::int16_t>(std::lround(value * 32767.0f));
 }
 
-// Mean speed of the surface over all poses of all clips [model units/s]; every so many vertices stand for all.
-float mean_speed(const motion::PoseTable& table) {
-    constexpr int vertex_stride = 7;
-    double distance = 0, ticks = 0;
-    for (const motion::ClipPoses& clip : table.clips) {
-        for (int pose = clip.first_pose; pose + 1 < clip.first_pose + clip.pose_count; ++pose) {
-            const motion::PosedVertex* from = &table.vertices[static_cast<std::size_t>(pose) * table.vertex_count];
-            for (int v = 0; v < table.vertex_count; v += vertex_stride) {
-                distance += glm::distance(motion::unpack_position(from[v], table.box),
-                                          motion::unpack_position(from[v + table.vertex_count], table.box));
-                ticks += clip.ticks_per_pose;
-            }
-        }
-    }
-    return ticks > 0 ? static_cast<float>(distance / ticks * motion::ticks_per_second) : 0.0f;
-}
-
 }  // namespace
 
 std::uint32_t level_points(std::uint32_t level) {
@@ -65,15 +48,15 @@ Selector::Selector(const scene::Crowd& crowd, std::span<const Figure> figures, S
         const glm::vec3 reach = glm::max(glm::abs(box.min), glm::abs(box.max));
         kind.center = glm::vec3(0.0f, box.center().y, 0.0f);
         kind.radius = glm::length(glm::vec3(reach.x, 0.5f * box.size().y, reach.z));
-        kind.speed = mean_speed(*figure.poses);
         bucket_count += kind.levels * static_cast<std::uint32_t>(figure.poses->pose_count);
         kinds_.push_back(kind);
     }
     bucket_begin_.resize(bucket_count + 1);
+    const auto staleness = measure_staleness(crowd_, figures_);
     std::vector<Forecaster::Kind> priced;
     for (std::size_t i = 0; i < kinds_.size(); ++i)
         priced.push_back({figures_[i].triangle_count, options_.density,
-                          [this, i](float points) { return level_points(level_of(i, points)); }});
+                          [this, i](float points) { return level_points(level_of(i, points)); }, staleness[i]});
     forecaster_ = Forecaster(std::move(priced));
 }
 
@@ -125,8 +108,8 @@ void Selector::forecast() {
     forecaster_.begin(survey_.range);
     for_each_visible([&](std::size_t person) {
         const std::size_t character = crowd_.character[person];
-        const float speed_px = kinds_[character].speed * scale_of(person) * view_.pixels_per_metre(depth_[person]);
-        forecaster_.add(character, depth_[person], points_at_unit_splat(person), speed_px);
+        forecaster_.add(character, crowd_.role[person], depth_[person], points_at_unit_splat(person),
+                        view_.pixels_per_metre(depth_[person]));
     });
     survey_.forecast = forecaster_.finish(options_.theta);
 }

@@ -8,6 +8,7 @@
 
 #include "motion/pose_table.h"
 #include "motion/schedule.h"
+#include "render/figure.h"
 #include "render/forecaster.h"
 #include "render/view.h"
 #include "scene/crowd.h"
@@ -31,14 +32,6 @@ struct Batch {
     std::uint32_t points;  // how many of the character's points each gets; 0 = triangles
     std::uint32_t first_instance;
     std::uint32_t instance_count;
-};
-
-// What selection must know of a character.
-struct Figure {
-    const scene::CastMember* member = nullptr;
-    const motion::PoseTable* poses = nullptr;
-    std::uint32_t triangle_count = 0;
-    float area = 0;  // what its points cover [model units^2]
 };
 
 struct SelectOptions {
@@ -88,7 +81,6 @@ private:
         glm::vec3 center{
             0.0f};  // of a ball around the character in every pose, on the axis it turns about [model units]
         float radius = 0;
-        float speed = 0;  // of the surface, mean over all poses [model units/s]
     };
     static constexpr float unseen = -1.0f;
 

@@ -71,9 +71,4 @@ bool sphere_visible(const View& view, glm::vec3 relative_center, float radius) {
     return true;
 }
 
-float farthest_depth(const View& view, const motion::Bounds& world_box) {
-    const glm::vec3 half = 0.5f * world_box.size();
-    return view.depth(view.relative(world_box.center())) + glm::dot(glm::abs(view.forward), half);
-}
-
 }  // namespace render

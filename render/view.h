@@ -35,7 +35,4 @@ enum class Overlap { outside, partly, inside };
 Overlap overlap(const View& view, const motion::Bounds& world_box);
 bool sphere_visible(const View& view, glm::vec3 relative_center, float radius);
 
-// The farthest view depth [m] of any corner of a world box.
-float farthest_depth(const View& view, const motion::Bounds& world_box);
-
 }  // namespace render

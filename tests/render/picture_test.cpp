@@ -123,6 +123,46 @@ TEST_F(Picture, PointsCoverTheSilhouetteAndLittleElse) {
     }
 }
 
+// [px] How far the farthest of `pixels` is from the nearest of `of`, along the rows or columns.
+int farthest_from(const std::set<int>& of, const std::set<int>& pixels) {
+    int farthest = 0;
+    for (const int pixel : pixels) {
+        int reach = 0;
+        const auto any_within = [&] {
+            for (int y = -reach; y <= reach; ++y)
+                for (int x = -reach; x <= reach; ++x)
+                    if (of.contains(pixel + y * width + x)) return true;
+            return false;
+        };
+        while (!any_within()) ++reach;
+        farthest = std::max(farthest, reach);
+    }
+    return farthest;
+}
+
+// What the forecast says that splats lose.
+TEST_F(Picture, SplatsReachHalfTheirSizeBeyondTheOutline) {
+    Portrait portrait;
+    const render::View view = portrait.view(3.0);  // about 150 px tall
+    const render::Image nobody = portrait.draw_nobody(view);
+    const std::set<int> triangles = differing_pixels(portrait.draw(view, {}), nobody);
+    render::Selector selector(portrait.scene.crowd, portrait.scene.figures());
+    const sfsm::Forecast forecast = selector.survey(view, 0).forecast;
+    int checked = 0;
+    for (const sfsm::SplatStep& step : std::vector(forecast.splats.begin(), forecast.splats.end())) {
+        if (step.size < 5 || step.size > 14 || step.points == 0) continue;
+        ++checked;
+        EXPECT_NEAR(step.loss_px, step.size / 2, 1e-6);
+        const std::set<int> points =
+            differing_pixels(portrait.draw(view, {sfsm::State::points, 100, step.size}), nobody);
+        // The outline's farthest spots may lie just off the nearest point.
+        const int reach = farthest_from(triangles, points);
+        EXPECT_LE(reach, step.loss_px + 1) << "S = " << step.size;
+        EXPECT_GE(reach, 0.6 * step.loss_px) << "S = " << step.size;
+    }
+    EXPECT_GE(checked, 4);
+}
+
 TEST_F(Picture, SplatsNeverOutgrowTheirPerson) {
     Portrait portrait;
     const render::View view = portrait.view(60.0);  // about 7 px tall

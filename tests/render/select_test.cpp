@@ -242,6 +242,62 @@ TEST(Forecast, CountsWhoMovesOnAverage) {
     }
 }
 
+// [px] How far the surface of everybody near enough to the view is from where it should be, on average over them and
+// over ten minutes, if the motion distance is `motion_distance`.
+double measured_displacement(const render::View& view, double motion_distance) {
+    constexpr std::size_t person_stride = 7;
+    constexpr int vertex_stride = 41, looks = 60;
+    const tests::SmallScene& scene = small_scene();
+    const motion::PoseTable& table = scene.poses[0];
+    const auto surface = [&](std::size_t person, std::int64_t tick) {
+        const scene::Placement at = scene::place(scene.crowd, person, scene.cast[0], tick);
+        const scene::Action action = scene::act(scene.crowd, person, scene.cast[0], table, tick);
+        const int pose = table.pose_at(action.clip, action.clip_tick);
+        const float scale = scene.crowd.height[person] / table.rest_height;
+        std::vector<glm::vec3> spots;
+        for (int v = 0; v < table.vertex_count; v += vertex_stride) {
+            const glm::vec3 p = motion::unpack_position(table.vertices[pose * table.vertex_count + v], table.box);
+            const float s = std::sin(at.yaw), c = std::cos(at.yaw);
+            spots.push_back(at.position + scale * glm::vec3(c * p.x + s * p.z, p.y, c * p.z - s * p.x));
+        }
+        return spots;
+    };
+    double displaced = 0;
+    std::int64_t people = 0;
+    for (int look = 0; look < looks; ++look) {
+        const std::int64_t tick = 597 * look;
+        for (std::size_t person = look % person_stride; person < scene.crowd.size(); person += person_stride) {
+            const std::vector<glm::vec3> now = surface(person, tick);
+            const glm::vec3 middle = view.relative(now[now.size() / 2]);
+            if (!render::sphere_visible(view, middle, 0.5f)) continue;
+            ++people;
+            const float depth = std::max(view.depth(middle), render::near_plane);
+            const int period = motion::update_period(depth, static_cast<float>(motion_distance));
+            if (period == 1) continue;
+            const std::vector<glm::vec3> old =
+                surface(person, motion::due_tick(tick, period, scene.crowd.hash[person]));
+            double moved = 0;
+            for (std::size_t spot = 0; spot < now.size(); ++spot)
+                moved += static_cast<double>(glm::distance(now[spot], old[spot])) / static_cast<double>(now.size());
+            displaced += moved * static_cast<double>(view.pixels_per_metre(depth));
+        }
+    }
+    return displaced / static_cast<double>(people);
+}
+
+TEST(Forecast, LossOfMotionIsTheCrowdsOwnOverTime) {
+    for (const char* preset : {"still", "remote"}) {
+        const render::View view = view_of(preset);
+        Selector selector(small_scene().crowd, small_scene().figures());
+        const sfsm::Forecast forecast = selector.survey(view, 100).forecast;
+        for (const sfsm::MotionStep& step : forecast.motion) {
+            const double measured = measured_displacement(view, step.distance);
+            constexpr double chance = 0.12;  // who is excited when, among a few hundred
+            EXPECT_NEAR(step.loss_px, measured, chance * measured + 0.0003) << preset << ", D = " << step.distance;
+        }
+    }
+}
+
 TEST(Forecast, WorkShrinksAndLossGrowsAlongTheSteps) {
     Selector selector(small_scene().crowd, small_scene().figures());
     for (const char* preset : {"still", "close", "medium", "remote"}) {

@@ -65,6 +65,42 @@ TEST(View, BoxWithAVisiblePointIsNeverOutside) {
     }
 }
 
+// A point just inside each face of the visible volume, and just outside of that face alone.
+TEST(View, BallsAreSeenUntilTheyAreBeyondAPlane) {
+    std::mt19937_64 random(4);
+    for (int i = 0; i < 300; ++i) {
+        const render::View view = any_view(random);
+        const glm::vec3 f = view.forward, r = view.right * view.tan_half_x, u = view.up * view.tan_half_y;
+        const auto depth = static_cast<float>(uniform(random, 1, 60));
+        const glm::vec3 on_faces[] = {depth * (f - r), depth * (f + r), depth * (f - u), depth * (f + u),
+                                      render::near_plane * f};
+        const glm::vec3 outward[] = {-glm::normalize(glm::cross(f - r, u)), glm::normalize(glm::cross(f + r, u)),
+                                     glm::normalize(glm::cross(f - u, r)), -glm::normalize(glm::cross(f + u, r)), -f};
+        for (int face = 0; face < 5; ++face) {
+            const auto radius = static_cast<float>(uniform(random, 0.02, 3));
+            const float sign = glm::dot(outward[face], depth * f - on_faces[face]) > 0 ? -1.0f : 1.0f;
+            const auto ball_at = [&](float distance) { return on_faces[face] + sign * distance * outward[face]; };
+            EXPECT_TRUE(render::sphere_visible(view, ball_at(0.98f * radius), radius)) << "face " << face;
+            EXPECT_FALSE(render::sphere_visible(view, ball_at(1.02f * radius), radius)) << "face " << face;
+            // A cube is touched later, when it lies in the plane's way with a corner.
+            const glm::vec3 center = glm::vec3(view.position) + ball_at(1.75f * radius);
+            const motion::Bounds cube{center - radius, center + radius};
+            EXPECT_EQ(render::overlap(view, cube), render::Overlap::outside) << "face " << face;
+        }
+    }
+}
+
+TEST(View, BoxWellInViewNeedsNoTestOfWhatIsInIt) {
+    std::mt19937_64 random(5);
+    for (int i = 0; i < 300; ++i) {
+        const render::View view = any_view(random);
+        const glm::vec3 center = glm::vec3(view.position) + 20.0f * view.forward;
+        const float reach = 20 * std::min({view.tan_half_x, view.tan_half_y, 0.9f}) / 4;
+        EXPECT_EQ(render::overlap(view, {center - reach / 2, center + reach / 2}), render::Overlap::inside);
+        EXPECT_EQ(render::overlap(view, {center - 100.0f, center + 100.0f}), render::Overlap::partly);
+    }
+}
+
 TEST(View, PixelsPerMetreIsWhatProjectionDoes) {
     std::mt19937_64 random(3);
     for (int i = 0; i < 1000; ++i) {

@@ -1,0 +1,24 @@
+// How far off a person's surface is who moved some ticks ago: measured on the crowd itself, so that who sits still, who
+// waves and who runs each count as what they do.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "motion/schedule.h"
+#include "render/figure.h"
+#include "scene/crowd.h"
+
+namespace render {
+
+// [m] by update period f [ticks], from 0 to max_period: the mean over ages 0 to f - 1 of how far the surface is from
+// where it should be. 0 for f = 0 and 1.
+using Staleness = std::array<float, motion::max_period + 1>;
+
+// By character, then role; zero for a role that nobody has. A few hundred people of each are looked at, at ticks spread
+// over some minutes: some ten milliseconds a character.
+std::vector<std::array<Staleness, scene::role_count>> measure_staleness(const scene::Crowd& crowd,
+                                                                        std::span<const Figure> figures);
+
+}  // namespace render
