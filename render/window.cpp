@@ -2,8 +2,11 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <unistd.h>
 
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -52,27 +55,86 @@ std::optional<Command> command_of_character(unsigned int character) {
     }
 }
 
-bool display_named() {
-    const auto set = [](const char* name) {
-        const char* value = std::getenv(name);
-        return value && *value;
-    };
-    return set("DISPLAY") || set("WAYLAND_DISPLAY");
+// Keeps what is printed on stderr while it lives: Xlib and Wayland's library print why a display refuses them.
+class PrintedErrors {
+public:
+    PrintedErrors() {
+        if (printed_) dup2(fileno(printed_), STDERR_FILENO);
+    }
+    ~PrintedErrors() {
+        dup2(stderr_, STDERR_FILENO);
+        close(stderr_);
+        if (printed_) std::fclose(printed_);
+    }
+    PrintedErrors(const PrintedErrors&) = delete;
+    PrintedErrors& operator=(const PrintedErrors&) = delete;
+
+    // On one line.
+    std::string text() const {
+        if (!printed_) return "";
+        std::rewind(printed_);
+        std::string text;
+        for (int c = 0; (c = std::fgetc(printed_)) != EOF;) text += c == '\n' ? ' ' : static_cast<char>(c);
+        text.erase(text.find_last_not_of(' ') + 1);
+        return text;
+    }
+
+private:
+    int stderr_ = dup(STDERR_FILENO);
+    std::FILE* printed_ = stderr_ >= 0 ? std::tmpfile() : nullptr;
+};
+
+enum class Platform { x11, wayland };
+
+// Makes the next glfwInit try this platform alone. False: GLFW is built without it.
+bool choose(Platform platform) {
+#ifdef GLFW_PLATFORM
+    const int id = platform == Platform::x11 ? GLFW_PLATFORM_X11 : GLFW_PLATFORM_WAYLAND;
+    glfwInitHint(GLFW_PLATFORM, id);
+    return glfwPlatformSupported(id);
+#else  // before 3.4 a GLFW is built for one platform, and its version names it
+    return std::strstr(glfwGetVersionString(), platform == Platform::x11 ? "X11" : "Wayland");
+#endif
+}
+
+// Starts GLFW, or says why it didn't start.
+std::optional<std::string> start_on(Platform platform) {
+    if (!choose(platform)) return "GLFW is built without this platform";
+    const PrintedErrors printed;
+    if (glfwInit()) return std::nullopt;
+    const std::string why = glfw_error(), more = printed.text();
+    return more.empty() ? why : why + ", " + more;
+}
+
+// Starts GLFW on the first display that is named and answers. Else says what each answered; nothing if none is named.
+// X11 comes first: a Wayland desktop mostly names an X server too, and every GLFW can use that.
+bool start(std::string& refusals) {
+    constexpr std::pair<const char*, Platform> names[] = {{"DISPLAY", Platform::x11},
+                                                          {"WAYLAND_DISPLAY", Platform::wayland}};
+    for (const auto& [name, platform] : names) {
+        const char* display = std::getenv(name);
+        if (!display || !*display) continue;
+        const auto refusal = start_on(platform);
+        if (!refusal) return true;
+        refusals += (refusals.empty() ? "" : "; ") + std::string(name) + "=" + display + ": " + *refusal;
+    }
+    return false;
 }
 
 }  // namespace
 
 bool Window::display_available(std::string* obstacle) {
-    if (!display_named()) return false;
-    const bool usable = glfwInit() == GLFW_TRUE;
-    if (!usable && obstacle) *obstacle = "found no usable display (" + glfw_error() + ")";
-    if (usable) glfwTerminate();
-    return usable;
+    std::string refusals;
+    const bool started = start(refusals);
+    if (started) glfwTerminate();
+    if (!started && !refusals.empty() && obstacle) *obstacle = "found no usable display (" + refusals + ")";
+    return started;
 }
 
 Window::Window(const std::string& title, int width, int height) {
-    if (!glfwInit())
-        throw std::runtime_error("window: found no usable display (" + glfw_error() +
+    std::string refusals;
+    if (!start(refusals))
+        throw std::runtime_error("window: found no usable display (" + (refusals.empty() ? "none is named" : refusals) +
                                  "), expected X11 or Wayland; --headless needs none");
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);

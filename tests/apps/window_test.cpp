@@ -1,11 +1,15 @@
-// What a window makes of its user's keys.
+// Which display a window is on, and what it makes of its user's keys.
 #include "render/window.h"
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "tests/apps/compositor.h"
+#include "tests/apps/environment.h"
 #include "tests/apps/xvfb.h"
 
 // Last: they define None and True.
@@ -18,22 +22,103 @@ namespace {
 
 using render::Command;
 
+const std::string dead_x11 = ":999";  // below the numbers that Xvfb is given
+const std::string dead_wayland = "wayland-nowhere";
+
+// Without a window manager they are children of the root; what was made last is on top. 0: there is none.
+::Window newest_window(Display* display) {
+    ::Window root = 0, parent = 0, *children = nullptr, newest = 0;
+    unsigned int count = 0;
+    XQueryTree(display, DefaultRootWindow(display), &root, &parent, &children, &count);
+    if (count > 0) newest = children[count - 1];
+    if (children) XFree(children);
+    return newest;
+}
+
+std::string refusal_of_a_window() {
+    try {
+        const render::Window window("none", 64, 64);
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(WindowDisplay, SaysWhichNamedOnesDoNotAnswer) {
+    const tests::Environment environment({{"DISPLAY", dead_x11}, {"WAYLAND_DISPLAY", dead_wayland}});
+    std::string obstacle;
+    EXPECT_FALSE(render::Window::display_available(&obstacle));
+    EXPECT_FALSE(render::Window::display_available());
+    for (const std::string& text : {obstacle, refusal_of_a_window()}) {
+        EXPECT_NE(text.find("(DISPLAY=" + dead_x11 + ": "), std::string::npos) << text;
+        EXPECT_NE(text.find("; WAYLAND_DISPLAY=" + dead_wayland + ": "), std::string::npos) << text;
+    }
+}
+
+TEST(WindowDisplay, HasNoObstacleWhereNoneIsNamed) {
+    const tests::Environment environment({{"DISPLAY", std::nullopt}, {"WAYLAND_DISPLAY", ""}});
+    std::string obstacle = "as it was";
+    EXPECT_FALSE(render::Window::display_available(&obstacle));
+    EXPECT_EQ(obstacle, "as it was");
+    EXPECT_NE(refusal_of_a_window().find("none is named"), std::string::npos);
+}
+
+TEST(WindowDisplay, HasNoObstacleWhereOneAnswers) {
+    const tests::Xvfb server;
+    if (server.display().empty()) GTEST_SKIP() << "NO XVFB, ITS DISPLAY IS NOT LOOKED FOR";
+    const tests::Environment environment({{"DISPLAY", server.display()}, {"WAYLAND_DISPLAY", dead_wayland}});
+    std::string obstacle = "as it was";
+    EXPECT_TRUE(render::Window::display_available(&obstacle));
+    EXPECT_EQ(obstacle, "as it was");
+}
+
+TEST(WindowDisplay, IsX11WhereWaylandAnswersToo) {
+    const tests::Xvfb server;
+    const tests::Compositor compositor;
+    if (server.display().empty() || compositor.display().empty())
+        GTEST_SKIP() << "NO XVFB OR NO CAGE, THE CHOICE BETWEEN BOTH IS NOT TESTED";
+    const tests::Environment environment({{"DISPLAY", server.display()},
+                                          {"WAYLAND_DISPLAY", compositor.display()},
+                                          {"XDG_RUNTIME_DIR", compositor.runtime_directory()},
+                                          {"XDG_SESSION_TYPE", "wayland"}});
+    const render::Window window("on X11", 64, 64);
+    Display* display = XOpenDisplay(nullptr);
+    ASSERT_NE(display, nullptr);
+    EXPECT_NE(newest_window(display), 0u);
+    XCloseDisplay(display);
+}
+
+// What libraries print is taken away only while they look for a display.
+TEST(WindowDisplay, GivesStderrBack) {
+    const tests::Environment environment({{"DISPLAY", dead_x11}, {"WAYLAND_DISPLAY", dead_wayland}});
+    const auto descriptors = [] {
+        const std::filesystem::directory_iterator all("/proc/self/fd");
+        return std::distance(begin(all), end(all));
+    };
+    testing::internal::CaptureStderr();
+    const auto before = descriptors();
+    render::Window::display_available();
+    EXPECT_EQ(descriptors(), before);
+    std::fputs("still here", stderr);
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "still here");
+}
+
 class WindowKeys : public testing::Test {
 protected:
     void SetUp() override {
         if (server_.display().empty()) GTEST_SKIP() << "NO XVFB, THE WINDOW'S KEYS ARE NOT TESTED";
-        setenv("DISPLAY", server_.display().c_str(), 1);
-        unsetenv("WAYLAND_DISPLAY");
+        environment_.emplace(std::map<std::string, std::optional<std::string>>{{"DISPLAY", server_.display()},
+                                                                               {"WAYLAND_DISPLAY", std::nullopt}});
         window_.emplace("keys", 64, 64);
         display_ = XOpenDisplay(nullptr);
         ASSERT_NE(display_, nullptr);
-        x_window_ = newest_window();
+        x_window_ = newest_window(display_);
         window_->poll();
     }
     void TearDown() override {
         if (display_) XCloseDisplay(display_);
         window_.reset();
-        unsetenv("DISPLAY");
+        environment_.reset();
     }
 
     // `times` presses without a release between them, as a key that is held gives, then the release.
@@ -71,17 +156,8 @@ private:
         XSendEvent(display_, x_window_, True, KeyPressMask | KeyReleaseMask, &event);
     }
 
-    // Without a window manager it is a child of the root; what was made last is on top.
-    ::Window newest_window() {
-        ::Window root = 0, parent = 0, *children = nullptr, newest = 0;
-        unsigned int count = 0;
-        XQueryTree(display_, DefaultRootWindow(display_), &root, &parent, &children, &count);
-        if (count > 0) newest = children[count - 1];
-        if (children) XFree(children);
-        return newest;
-    }
-
     tests::Xvfb server_;
+    std::optional<tests::Environment> environment_;
     Display* display_ = nullptr;
     ::Window x_window_ = 0;
     Time now_ = 0;

@@ -9,19 +9,28 @@
 
 namespace tests {
 
-// Ended with the object.
+// One record of an Xauthority file, for any display: a server with it takes clients with it alone.
+inline std::string cookie(char secret) {
+    const auto field = [](const std::string& text) {
+        return std::string{static_cast<char>(text.size() >> 8), static_cast<char>(text.size())} + text;
+    };
+    const std::string any_family = "\xff\xff";
+    return any_family + field("") + field("") + field("MIT-MAGIC-COOKIE-1") + field(std::string(16, secret));
+}
+
+// Ended with the object. One a process.
 class Xvfb {
 public:
-    Xvfb() {
+    explicit Xvfb(const std::vector<std::string>& more = {}) {
         int ends[2];
         if (pipe2(ends, O_CLOEXEC) != 0) return;
         // Left to choose, servers that start at once take each other's sockets away: the number is of this process
         // alone. When the last client leaves, a server starts anew and for a moment takes none: not this one.
         const std::string display = ":" + std::to_string(1000 + getpid() % 30000);
-        server_ =
-            std::make_unique<Process>(std::vector<std::string>{"Xvfb", display, "-noreset", "-displayfd",
-                                                               std::to_string(ends[1]), "-screen", "0", "640x480x24"},
-                                      ends[1]);
+        std::vector<std::string> command{"Xvfb",    display, "-noreset",  "-displayfd", std::to_string(ends[1]),
+                                         "-screen", "0",     "640x480x24"};
+        command.insert(command.end(), more.begin(), more.end());
+        server_ = std::make_unique<Process>(command, ends[1]);
         close(ends[1]);
         char byte = 0;  // the display's number and a line's end, once it takes clients; nothing if there is no Xvfb
         while (read(ends[0], &byte, 1) == 1 && byte != '\n') number_ += byte;
