@@ -69,53 +69,63 @@ TEST_F(Scripts, SetupInstallsWhatIsMissingAndSaysWhenThatFails) {
     EXPECT_NE(outcome.out.find("apt-get failed"), std::string::npos) << outcome.out;
 }
 
-// Everything is there but chromium-driver.
-class ScriptsWithoutADriver : public Scripts {
+// Everything is there but chromium-driver and cage.
+class ScriptsWithoutTestPrograms : public Scripts {
 protected:
     void SetUp() override {
         Scripts::SetUp();
         stand_in("tools/sudo", "exec \"$@\"");
-        stand_in("tools/dpkg-query", "case \"$*\" in *chromium-driver*) ;; *) echo install ok installed;; esac");
+        stand_in("tools/dpkg-query", "case \"$*\" in *chromium-driver*|*cage*) ;; *) echo install ok installed;; esac");
         stand_in("tools/apt-cache", "exit 0");
         stand_in("tools/apt-get", "echo \"apt-get $*\" >&2; [ \"$1\" = update ]");
         stand_in("tools/cmake", "echo built");
+        stand_in("tools/pkg-config", "exit 0");
     }
 };
 
-TEST_F(ScriptsWithoutADriver, SetupInstallsNoneUnasked) {
+TEST_F(ScriptsWithoutTestPrograms, SetupInstallsNoneUnasked) {
     stand_in("tools/apt-cache", "echo looked for $*");
     const tests::Outcome outcome = call("scripts/setup");
     EXPECT_EQ(outcome.code, 0) << outcome.out;
-    EXPECT_EQ(outcome.out.find("chromium"), std::string::npos) << outcome.out;
+    for (const char* program : {"chromium", "cage", "looked for"})
+        EXPECT_EQ(outcome.out.find(program), std::string::npos) << outcome.out;
 }
 
-TEST_F(ScriptsWithoutADriver, SetupBuildsAlsoWhereItCannotBeInstalled) {
-    const tests::Outcome outcome = call("scripts/setup", "browser");
+TEST_F(ScriptsWithoutTestPrograms, SetupBuildsAlsoWhereItCannotBeInstalled) {
+    const tests::Outcome outcome = call("scripts/setup", "tests");
     EXPECT_EQ(outcome.code, 0) << outcome.out;
-    EXPECT_NE(outcome.out.find("apt-get install -y --no-install-recommends chromium-driver\n"), std::string::npos);
-    EXPECT_NE(outcome.out.find("could not install chromium-driver: reports are not tested in a browser\n"),
-              std::string::npos)
-        << outcome.out;
-    EXPECT_NE(outcome.out.find("Building"), std::string::npos) << outcome.out;
+    for (const char* line : {"apt-get install -y --no-install-recommends chromium-driver\n",
+                             "could not install chromium-driver: reports are not tested in a browser\n",
+                             "apt-get install -y --no-install-recommends cage\n",
+                             "could not install cage: the window is not tested on Wayland\n", "Building"})
+        EXPECT_NE(outcome.out.find(line), std::string::npos) << line << outcome.out;
 }
 
-TEST_F(ScriptsWithoutADriver, SetupBuildsAlsoWhereThereIsNoSuchPackage) {
+TEST_F(ScriptsWithoutTestPrograms, SetupBuildsAlsoWhereThereIsNoSuchPackage) {
     stand_in("tools/apt-cache", "exit 100");
-    const tests::Outcome outcome = call("scripts/setup", "browser");
+    const tests::Outcome outcome = call("scripts/setup", "tests");
     EXPECT_EQ(outcome.code, 0) << outcome.out;
     EXPECT_EQ(outcome.out.find("apt-get"), std::string::npos) << outcome.out;
-    EXPECT_NE(outcome.out.find("found no package chromium-driver: reports are not tested in a browser\n"),
-              std::string::npos)
-        << outcome.out;
+    for (const char* line : {"found no package chromium-driver: reports are not tested in a browser\n",
+                             "found no package cage: the window is not tested on Wayland\n"})
+        EXPECT_NE(outcome.out.find(line), std::string::npos) << line << outcome.out;
 }
 
-TEST_F(Scripts, TestAsksForABrowserAndHandsArgumentsOn) {
+TEST_F(ScriptsWithoutTestPrograms, SetupInstallsNoCompositorForAGlfwWithoutWayland) {
+    stand_in("tools/pkg-config", "exit 1");
+    const tests::Outcome outcome = call("scripts/setup", "tests");
+    EXPECT_EQ(outcome.code, 0) << outcome.out;
+    EXPECT_NE(outcome.out.find("chromium-driver"), std::string::npos) << outcome.out;
+    EXPECT_EQ(outcome.out.find("cage"), std::string::npos) << outcome.out;
+}
+
+TEST_F(Scripts, TestAsksForTestProgramsAndHandsArgumentsOn) {
     stand_in("root/scripts/setup", "echo \"setup $*\"");
     stand_in("tools/ctest", "echo \"ctest $*\"");
     stand_in("tools/nproc", "echo 3");
     const tests::Outcome outcome = call("test", "-R Selection");
     EXPECT_EQ(outcome.code, 0) << outcome.out;
-    EXPECT_NE(outcome.out.find("setup browser\n"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("setup tests\n"), std::string::npos) << outcome.out;
     EXPECT_NE(outcome.out.find("--parallel 3 -R Selection\n"), std::string::npos) << outcome.out;
 }
 
