@@ -101,7 +101,7 @@ Influences influences_of(const Mesh& mesh, const Corners& corners) {
             found[at].first += weight;
         }
     }
-    std::sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(count), [](const auto& a, const auto& b) {
+    std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) {  // what was not found weighs 0 and is last
         return a.first > b.first || (a.first == b.first && a.second < b.second);
     });
     Influences out;

@@ -72,8 +72,7 @@ void merge_sparse(const GltfFile& file, const tinygltf::Accessor& accessor, int 
     if (type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE && type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
         type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
         fail("sparse indices of component type " + std::to_string(type) + " in " + name_of(index), "unsigned ones");
-    if (sparse.count < 0 || sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0)
-        fail("a negative sparse count or offset in " + name_of(index), "none");
+    // What is negative, in the releases of tinygltf that have it signed, is beyond every buffer's end as a size.
     const std::size_t count = static_cast<std::size_t>(sparse.count), size = size_of_component(type, index);
     const Run indices = run_of(file, sparse.indices.bufferView, static_cast<std::size_t>(sparse.indices.byteOffset),
                                count, size, index);

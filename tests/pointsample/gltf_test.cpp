@@ -171,8 +171,15 @@ TEST(Gltf, SparseValuesReplaceTheirElements) {
     positions.erase("bufferView");  // then the others are zero
     EXPECT_EQ(load(builder).mesh.positions[2], glm::vec3(9, 8, 7));
     EXPECT_EQ(load(builder).mesh.positions[1], glm::vec3(0, 0, 0));
-    positions["sparse"]["count"] = 2;
-    complaint(builder);
+    for (const char* part : {"indices", "values"}) {
+        positions["sparse"][part]["byteOffset"] = 1;
+        EXPECT_TRUE(contains(complaint(builder), "beyond the end")) << part;
+        positions["sparse"][part].erase("byteOffset");
+    }
+    for (const int count : {2, -1, std::numeric_limits<int>::min()}) {
+        positions["sparse"]["count"] = count;
+        EXPECT_TRUE(contains(complaint(builder), "beyond the end")) << count;
+    }
 }
 
 TEST(Gltf, NormalisedIntegersAreFractions) {
