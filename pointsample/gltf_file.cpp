@@ -41,6 +41,24 @@ bool write_nothing(std::string*, const std::string&, const std::vector<unsigned 
     return false;
 }
 
+// A template, as tinygltf asks for a file's size since 2.9 only; from then on it takes all of these or none.
+template <typename Callbacks>
+Callbacks file_callbacks() {
+    Callbacks callbacks{};
+    callbacks.FileExists = file_exists;
+    callbacks.ExpandFilePath = keep_path;
+    callbacks.ReadWholeFile = read_whole_file;
+    callbacks.WriteWholeFile = write_nothing;
+    if constexpr (requires { callbacks.GetFileSizeInBytes; })
+        callbacks.GetFileSizeInBytes = [](std::size_t* size, std::string* error, const std::string& path, void*) {
+            std::error_code code;
+            *size = fs::file_size(path, code);
+            *error = code ? code.message() : "";
+            return !code;
+        };
+    return callbacks;
+}
+
 // Keeps an image encoded: only base colours are decoded, later. What lies in a buffer view is not touched, as tinygltf
 // has not checked the view yet.
 bool keep_encoded(tinygltf::Image* image, int, std::string* error, std::string*, int, int, const unsigned char* bytes,
@@ -80,7 +98,7 @@ void parse(const std::vector<unsigned char>& bytes, const fs::path& path, tinygl
     tinygltf::TinyGLTF loader;
     std::size_t kept = 0;
     loader.SetImageLoader(keep_encoded, &kept);
-    loader.SetFsCallbacks({file_exists, keep_path, read_whole_file, write_nothing, nullptr});
+    loader.SetFsCallbacks(file_callbacks<tinygltf::FsCallbacks>());
     std::string error, warning;
     const std::string folder = fs::absolute(path).parent_path().string();
     const unsigned int size = static_cast<unsigned int>(bytes.size());

@@ -268,6 +268,23 @@ TEST(Gltf, BuffersLieBesideTheFileToo) {
     EXPECT_EQ(pointsample::load_gltf(path).mesh.triangle_count(), 2u);
 }
 
+TEST(GltfRefuses, WhatLiesInTheWorkingDirectoryAlone) {
+    const tests::TemporaryFolder folder, elsewhere;
+    GltfBuilder builder = tests::make_everything();
+    builder.document["images"][0] = {{"uri", "skin.png"}};
+    const auto textured = folder.write("textured.glb", builder.glb());
+    elsewhere.write("skin.png", tests::make_png(1, 1, "abc"));
+    builder = tests::make_square();
+    builder.document["buffers"] = {{{"byteLength", builder.binary.size()}, {"uri", "data.bin"}}};
+    const auto buffered = folder.write("buffered.gltf", builder.document.dump());
+    elsewhere.write("data.bin", builder.binary);
+    const auto before = std::filesystem::current_path();
+    std::filesystem::current_path(elsewhere / "");
+    EXPECT_TRUE(contains(complaint(textured), "skin.png"));
+    EXPECT_TRUE(contains(complaint(buffered), "data.bin"));
+    std::filesystem::current_path(before);
+}
+
 TEST(Gltf, ChainsOfTwentyThousandNodesLoad) {
     GltfBuilder builder = tests::make_square();
     constexpr std::size_t depth = 20000;
