@@ -1,4 +1,5 @@
 // One person at a time before the sky: pose, place, colour and light of every pixel.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>

@@ -2,6 +2,7 @@
 // forecast says that loses. All expectations are worked out here, in double precision.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <map>
