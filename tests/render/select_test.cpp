@@ -164,9 +164,10 @@ TEST(Selection, MovesEachPersonOnceAPeriod) {
     const Decision decision{State::slowed, 1.0, 0};
     Selector selector(small_scene().crowd, small_scene().figures(),
                       {.theta = 10.0f});  // everybody at the longest period
+    const render::View view = view_of("remote");
     std::int64_t moved = 0, people = 0;
     for (std::int64_t tick = 100; tick < 100 + motion::max_period; ++tick) {
-        const Selection& selection = select_at(selector, view_of("remote"), decision, tick);
+        const Selection& selection = select_at(selector, view, decision, tick);
         moved += selection.work.motion_updates;
         people = selection.work.people;
         // Staggered: no frame moves more than twice its share of the people.
