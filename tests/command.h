@@ -2,16 +2,20 @@
 #pragma once
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -78,11 +82,50 @@ inline Outcome run(const std::string& program, const std::string& arguments) {
     return outcome;
 }
 
-// A program that runs beside the test; ended with it.
+// The longest that a test waits for another process [s]: far more than any needs, less than ctest gives.
+inline constexpr int patience = 120;
+
+// Signals as a shell sets them for a program. Tests may be called with some ignored (as by nohup) or blocked, which
+// a child of theirs would inherit.
+inline void default_signals() {
+    for (const int number : {SIGHUP, SIGINT, SIGQUIT, SIGPIPE, SIGALRM, SIGTERM, SIGCHLD}) std::signal(number, SIG_DFL);
+    sigset_t none;
+    sigemptyset(&none);
+    sigprocmask(SIG_SETMASK, &none, nullptr);
+}
+
+// As fork. The child ends in time, whatever program it becomes: no wait for it is for ever.
+inline pid_t fork_child() {
+    std::signal(SIGCHLD, SIG_DFL);  // ignored, it would hide how children end
+    const pid_t pid = fork();
+    if (pid != 0) return pid;
+    default_signals();
+    alarm(patience);
+    return 0;
+}
+
+// How a child of fork_child ended, as Outcome::code; -1: it is none.
+inline int wait_for(pid_t pid) {
+    int status = 0;
+    pid_t ended = -1;
+    do ended = waitpid(pid, &status, 0);
+    while (ended < 0 && errno == EINTR);
+    return ended == pid ? code_of(status) : -1;
+}
+
+// One byte; nothing at the end or where none comes in time.
+inline std::optional<char> read_byte(int descriptor) {
+    pollfd source{descriptor, POLLIN, 0};
+    char byte = 0;
+    if (poll(&source, 1, 1000 * patience) > 0 && read(descriptor, &byte, 1) == 1) return byte;
+    return std::nullopt;
+}
+
+// A program that runs beside the test; ended with it, or when the tests' patience is.
 class Process {
 public:
     // `command[0]` is looked for in PATH. stdout and stderr are thrown away, except what goes to `kept`.
-    explicit Process(std::vector<std::string> command, int kept = -1) : pid_(fork()) {
+    explicit Process(std::vector<std::string> command, int kept = -1) : pid_(fork_child()) {
         if (pid_ != 0) return;
         const int nowhere = open("/dev/null", O_RDWR);
         for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nowhere, descriptor);
@@ -104,10 +147,19 @@ public:
     void signal(int number) const { kill(pid_, number); }
 
     // As Outcome::code. Once.
-    int wait() {
-        int status = 0;
-        waitpid(std::exchange(pid_, -1), &status, 0);
-        return code_of(status);
+    int wait() { return wait_for(std::exchange(pid_, -1)); }
+
+    // Whether `done` came true before the program ended.
+    bool until(const std::function<bool()>& done) const {
+        constexpr int pause = 2;  // [ms]
+        while (!done()) {
+            siginfo_t end{};
+            if (waitid(P_PID, static_cast<id_t>(pid_), &end, WEXITED | WNOHANG | WNOWAIT) != 0 || end.si_pid == pid_) {
+                return done();
+            }
+            poll(nullptr, 0, pause);
+        }
+        return true;
     }
 
 private:

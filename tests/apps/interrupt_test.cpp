@@ -2,8 +2,11 @@
 #include "apps/interrupt.h"
 
 #include <gtest/gtest.h>
+#include <sys/socket.h>
 
 #include <functional>
+#include <memory>
+#include <vector>
 
 #include "apps/output.h"
 #include "apps/program.h"
@@ -12,46 +15,40 @@
 namespace apps {
 namespace {
 
-// Another process that does `body`. The two take turns by bytes in pipes, so that no clock decides.
+// Another process that does `body`. The two take turns by bytes in a pair of sockets, so that no clock decides.
 class Child {
 public:
     explicit Child(const std::function<void(Child&)>& body) {
-        if (pipe(up_) != 0 || pipe(down_) != 0) std::abort();
-        pid_ = fork();
+        if (socketpair(AF_UNIX, SOCK_STREAM, 0, ends_) != 0) std::abort();
+        pid_ = tests::fork_child();
+        close(ends_[pid_ == 0 ? 0 : 1]);
+        end_ = ends_[pid_ == 0 ? 1 : 0];
         if (pid_ != 0) return;
-        std::swap(up_[0], down_[0]);
-        std::swap(up_[1], down_[1]);
         body(*this);
         _exit(0);
     }
     ~Child() {
-        for (const int descriptor : {up_[0], up_[1], down_[0], down_[1]}) close(descriptor);
+        close(end_);
+        if (pid_ > 0) static_cast<void>(wait());
     }
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;
 
-    void say(char word) const { ASSERT_EQ(write(down_[1], &word, 1), 1); }
-    char hear() const {
-        char word = 0;
-        return read(up_[0], &word, 1) == 1 ? word : '\0';
-    }
+    void say(char word) const { EXPECT_EQ(send(end_, &word, 1, MSG_NOSIGNAL), 1); }
+    char hear() const { return tests::read_byte(end_).value_or('\0'); }
     void signal(int number) const { kill(pid_, number); }
-    int wait() const {
-        int status = 0;
-        waitpid(pid_, &status, 0);
-        return tests::code_of(status);
-    }
+    int wait() { return tests::wait_for(std::exchange(pid_, -1)); }
 
 private:
-    int up_[2], down_[2];  // to the parent, to the child; the child has them the other way round
+    int ends_[2], end_;
     pid_t pid_;
 };
 
 TEST(Interrupt, ASignalThatEndsTheProgramRemovesItsHalfWrittenFiles) {
-    for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
+    for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGQUIT}) {
         const tests::Directory directory;
         std::ofstream(directory / "old") << "old";
-        const Child child([&](Child& self) {
+        Child child([&](Child& self) {
             watch_signals();
             OutputFile fresh(directory / "new"), old(directory / "old");
             fresh.stream() << std::string(200'000, 'x') << std::flush;
@@ -67,9 +64,47 @@ TEST(Interrupt, ASignalThatEndsTheProgramRemovesItsHalfWrittenFiles) {
     }
 }
 
+// Room for the names is used again.
+TEST(Interrupt, HalfWrittenFilesGoHoweverManyWereWrittenBefore) {
+    constexpr int places = 32;
+    const tests::Directory directory;
+    Child child([&](Child& self) {
+        watch_signals();
+        for (int i = 0; i < 3 * places; ++i) {
+            OutputFile file(directory / "whole");
+            if (i % 2 == 0) file.commit();
+        }
+        std::vector<std::unique_ptr<OutputFile>> files;
+        for (int i = 0; i < places; ++i) files.push_back(std::make_unique<OutputFile>(directory / std::to_string(i)));
+        self.say('o');
+        self.hear();
+    });
+    ASSERT_EQ(child.hear(), 'o');
+    EXPECT_EQ(directory.names().size(), 1u + places);
+    child.signal(SIGTERM);
+    EXPECT_EQ(child.wait(), 128 + SIGTERM);
+    EXPECT_EQ(directory.names(), std::vector<std::string>{"whole"});
+}
+
+TEST(Interrupt, AWholeFileIsNotRemovedByALateSignal) {
+    const tests::Directory directory;
+    Child child([&](Child& self) {
+        watch_signals();
+        OutputFile file(directory / "whole");
+        file.commit();
+        const OutputFile half(directory / "half");
+        self.say('o');
+        self.hear();
+    });
+    ASSERT_EQ(child.hear(), 'o');
+    child.signal(SIGQUIT);
+    EXPECT_EQ(child.wait(), 128 + SIGQUIT);
+    EXPECT_EQ(directory.names(), std::vector<std::string>{"whole"});
+}
+
 TEST(Interrupt, ExitRemovesHalfWrittenFilesToo) {
     const tests::Directory directory;
-    const Child child([&](Child&) {
+    Child child([&](Child&) {
         watch_signals();
         const OutputFile file(directory / "new");
         std::exit(3);
@@ -81,7 +116,7 @@ TEST(Interrupt, ExitRemovesHalfWrittenFilesToo) {
 TEST(Interrupt, TheFirstSignalAsksAndTheSecondEnds) {
     for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
         const tests::Directory directory;
-        const Child child([&](Child& self) {
+        Child child([&](Child& self) {
             watch_signals();
             finish_on_signal();
             const OutputFile file(directory / "new");
@@ -101,7 +136,7 @@ TEST(Interrupt, TheFirstSignalAsksAndTheSecondEnds) {
 }
 
 TEST(Interrupt, LeavesIgnoredSignalsIgnored) {
-    const Child child([](Child& self) {
+    Child child([](Child& self) {
         std::signal(SIGHUP, SIG_IGN);
         watch_signals();
         self.say('r');
@@ -115,6 +150,7 @@ TEST(Interrupt, LeavesIgnoredSignalsIgnored) {
 
 TEST(Interrupt, IsReportedByRunProgram) {
     const auto run = [] {
+        tests::default_signals();
         CLI::App app("A test.", "program");
         char name[] = "program";
         char* arguments[] = {name, nullptr};

@@ -32,8 +32,8 @@ public:
         command.insert(command.end(), more.begin(), more.end());
         server_ = std::make_unique<Process>(command, ends[1]);
         close(ends[1]);
-        char byte = 0;  // the display's number and a line's end, once it takes clients; nothing if there is no Xvfb
-        while (read(ends[0], &byte, 1) == 1 && byte != '\n') number_ += byte;
+        // The display's number and a line's end, once it takes clients; nothing if there is no Xvfb.
+        for (auto byte = read_byte(ends[0]); byte && byte != '\n'; byte = read_byte(ends[0])) number_ += *byte;
         close(ends[0]);
     }
 

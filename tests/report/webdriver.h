@@ -81,6 +81,7 @@ private:
     }
 
     [[noreturn]] static void become(std::vector<std::string> command, const std::string& folder, int said) {
+        default_signals();
         const int nowhere = open("/dev/null", O_RDWR);
         dup2(nowhere, STDIN_FILENO);
         dup2(said, STDOUT_FILENO);
@@ -204,9 +205,8 @@ private:
     // "ChromeDriver was started successfully on port 12345."
     static int read_port(int said) {
         std::string text;
-        char byte = 0;
-        while (read(said, &byte, 1) == 1) {
-            text += byte;
+        for (auto byte = read_byte(said); byte; byte = read_byte(said)) {
+            text += *byte;
             const std::size_t found = text.find("successfully on port ");
             if (byte == '\n' && found != text.npos) return std::atoi(text.c_str() + found + 21);
         }
