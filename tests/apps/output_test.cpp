@@ -2,11 +2,14 @@
 #include "apps/output.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <cstring>
 #include <stdexcept>
 #include <vector>
 
 #include "apps/places.h"
+#include "tests/apps/failing_calls.h"
 #include "tests/command.h"
 
 namespace apps {
@@ -60,10 +63,140 @@ TEST_F(Output, IsNotThereBeforeCommitAndWholeAfter) {
     EXPECT_EQ(directory_.names(), std::vector<std::string>{"a"});
 }
 
+// Bytes that tell their place.
+std::string numbered(std::size_t size) {
+    std::string text;
+    for (int i = 0; text.size() < size; ++i) text += std::to_string(i) + ' ';
+    return text.substr(0, size);
+}
+
 TEST_F(Output, HoldsMoreThanItsBuffer) {
-    const std::string large(1'000'003, 'x');
+    constexpr std::size_t buffer = 1 << 16;
+    for (const std::size_t size : {buffer - 1, buffer, buffer + 1, 2 * buffer, std::size_t{1'000'003}}) {
+        const std::string large = numbered(size);
+        EXPECT_EQ(complaint(directory_ / "at once", large), "");
+        EXPECT_TRUE(text("at once") == large) << size;
+        OutputFile file(directory_ / "by bytes");
+        for (const char c : large) file.stream().put(c);
+        file.commit();
+        EXPECT_TRUE(text("by bytes") == large) << size;
+    }
+}
+
+TEST_F(Output, WhatIsFlushedIsWritten) {
+    const std::string pipe = directory_ / "pipe";
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+    OutputFile file(pipe);
+    file.stream() << "ab" << std::flush;
+    char bytes[3];
+    EXPECT_EQ(read(reader, bytes, sizeof bytes), 2);
+    file.stream() << "c";
+    EXPECT_EQ(read(reader, bytes, sizeof bytes), -1) << "not flushed yet";
+    file.commit();
+    EXPECT_EQ(read(reader, bytes, sizeof bytes), 1);
+    EXPECT_EQ(read(reader, bytes, sizeof bytes), 0) << "closed";
+    close(reader);
+}
+
+// --- System calls that fail.
+
+TEST_F(Output, AnInterruptedWriteIsTakenUpAgain) {
+    const std::string large = numbered(300'000);
+    tests::FailingCalls calls;
+    calls.write_errors = {EINTR, 0, EINTR, EINTR, EINTR, 0};
     EXPECT_EQ(complaint(directory_ / "a", large), "");
-    EXPECT_EQ(text("a"), large);
+    EXPECT_TRUE(text("a") == large);
+}
+
+TEST_F(Output, AWriteThatTakesAPartIsContinued) {
+    const std::string large = numbered(200'001);
+    for (const std::size_t part : {std::size_t{1}, std::size_t{999}, std::size_t{65'535}}) {
+        tests::FailingCalls calls;
+        calls.longest_write = part;
+        EXPECT_EQ(complaint(directory_ / "a", large), "") << part;
+        EXPECT_TRUE(text("a") == large) << part;
+    }
+}
+
+// Some file systems find only then that there is no room.
+TEST_F(Output, AFailingCloseIsAFailedFile) {
+    put("old", "old");
+    tests::FailingCalls calls;
+    calls.close_error = EDQUOT;
+    for (const char* name : {"new", "old"}) {
+        EXPECT_EQ(complaint(directory_ / name), "cannot write " + (directory_ / name) + ": " + std::strerror(EDQUOT));
+    }
+    EXPECT_EQ(directory_.names(), std::vector<std::string>{"old"});
+    EXPECT_EQ(text("old"), "old");
+}
+
+TEST_F(Output, TheFirstFailureIsTheOneThatIsTold) {
+    put("old", "old");
+    for (const std::size_t size : {10u, 500'000u}) {
+        tests::FailingCalls calls;
+        calls.write_errors = {ENOSPC, EIO};
+        calls.close_error = EDQUOT;
+        EXPECT_EQ(complaint(directory_ / "old", numbered(size)),
+                  "cannot write " + (directory_ / "old") + ": " + std::strerror(ENOSPC));
+        EXPECT_EQ(calls.written.size(), 1u) << "nothing is written behind a gap";
+    }
+    EXPECT_EQ(directory_.names(), std::vector<std::string>{"old"});
+    EXPECT_EQ(text("old"), "old");
+}
+
+TEST_F(Output, AFileThatCannotTakeItsPlaceLeavesTheOlderOne) {
+    put("old", "old");
+    tests::FailingCalls calls;
+    calls.rename_error = EXDEV;
+    EXPECT_EQ(complaint(directory_ / "old"), "cannot write " + (directory_ / "old") + ": " + std::strerror(EXDEV));
+    EXPECT_EQ(directory_.names(), std::vector<std::string>{"old"});
+    EXPECT_EQ(text("old"), "old");
+}
+
+// A number closed twice may be another file's by then.
+TEST_F(Output, EveryDescriptorIsClosedOnceAndStandardOutputNever) {
+    for (const bool is_kept : {true, false}) {
+        tests::FailingCalls calls;
+        {
+            OutputFile file(directory_ / "a");
+            file.stream() << "text";
+            if (is_kept) file.commit();
+        }
+        EXPECT_EQ(calls.closed.size(), 1u) << (is_kept ? "committed" : "given up");
+        if (is_kept) {
+            EXPECT_EQ(calls.closed, calls.written);
+        }
+    }
+    tests::FailingCalls calls;
+    {
+        OutputFile file("-");
+        file.commit();
+    }
+    EXPECT_TRUE(calls.closed.empty());
+}
+
+TEST_F(Output, AFileOverTheLimitOfSizesIsRefusedWithItsReason) {
+    rlimit before{};
+    ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit small{100'000, before.rlim_max};
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+    const std::string said = complaint(directory_ / "a", numbered(150'000));
+    setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, handler);
+    EXPECT_EQ(said, "cannot write " + (directory_ / "a") + ": " + std::strerror(EFBIG));
+    EXPECT_TRUE(directory_.names().empty());
+}
+
+TEST_F(Output, ANewFileHasTheModeThatTheUsersMaskLeaves) {
+    for (const mode_t mask : {022, 027, 077, 0}) {
+        const mode_t before = umask(mask);
+        const std::string name = directory_ / ("a" + std::to_string(mask));
+        EXPECT_EQ(complaint(name), "");
+        umask(before);
+        EXPECT_EQ(fs::status(name).permissions(), fs::perms(0666 & ~mask)) << std::oct << mask;
+    }
 }
 
 TEST_F(Output, LeavesNothingAfterAThrow) {
@@ -120,7 +253,9 @@ TEST_F(Output, KeepsTheModeOfTheOlderFile) {
     const std::string path = put("old", "old");
     for (const fs::perms mode : {fs::perms(0600), fs::perms(0666), fs::perms(0751)}) {
         fs::permissions(path, mode);
+        const mode_t before = umask(077);  // it is for new files
         EXPECT_EQ(complaint(path), "");
+        umask(before);
         EXPECT_EQ(fs::status(path).permissions(), mode);
     }
 }
