@@ -1,4 +1,5 @@
 // Every format that is read, from what its tool writes.
+#include <cmath>
 #include <functional>
 
 #include "tests/recordings/tables.h"
@@ -167,6 +168,54 @@ TEST(Formats, MangoHudsPausesStandForNoMoreThanAThousandFrames) {
     EXPECT_TRUE(has_note(recording, "pauses left out: 1"));
 }
 
+// Frame times were in microseconds once: whole numbers that, so read, agree with the rate to a tenth.
+TEST(Formats, MangoHudsUnitIsTheOneThatAgreesWithItsRate) {
+    struct Row {
+        const char *fps, *told;
+        double ms;
+    };
+    for (const Row& row : {Row{"50", "20000", 20},
+                           {"54", "20000", 20},
+                           {"46", "20000", 20},
+                           {"56", "20000", 20000},
+                           {"44", "20000", 20000},
+                           {"50", "20000.5", 20000.5},
+                           {"50", "20", 20},
+                           {"1000", "1", 1},
+                           {"1000", "1000", 1},
+                           {"0", "20", 20}}) {
+        Table table = mangohud();
+        table.columns = {"fps", "frametime"};
+        table.rows = {{row.fps, row.told}};
+        EXPECT_EQ(read(table.text()).trace.rows.at(0).frame_ms, row.ms) << row.told << " at " << row.fps << " fps";
+    }
+}
+
+// A sample a frame may be off its clock by half; beyond that rows are samples.
+TEST(Formats, MangoHudsRowsAreSamplesWhereTheirClockSaysSo) {
+    const auto frames = [](double interval_ms) {
+        Table table = mangohud();
+        table.rows.clear();
+        for (int i = 0; i < 100; ++i) {
+            table.rows.push_back({"50", "20", "20", "90", std::to_string(std::llround(interval_ms * 1e6) * i)});
+        }
+        return static_cast<int>(read(table.text()).trace.rows.size());
+    };
+    for (const double interval : {14.0, 20.0, 29.0}) EXPECT_EQ(frames(interval), 100) << interval << " ms";
+    EXPECT_NEAR(frames(31), 100 * 31 / 20, 1);
+    EXPECT_NEAR(frames(13), 100 * 13 / 20, 1);
+    EXPECT_NEAR(frames(200), 1 + 99 * 10, 1);
+}
+
+TEST(Formats, MangoHudsClockThatRunsBackIsASampleOfOneFrame) {
+    Table table = mangohud();
+    table.rows.clear();
+    for (int i = 0; i < 20; ++i) table.rows.push_back({"50", "20", "20", "90", std::to_string(100'000'000LL * i)});
+    table.rows.push_back({"50", "20", "20", "90", "0"});  // a log begun anew
+    table.rows.push_back({"50", "20", "20", "90", "100000000"});
+    EXPECT_EQ(read(table.text()).trace.rows.size(), 1u + 19 * 5 + 1 + 5);
+}
+
 TEST(Formats, FrapsClockGivesAFrameLess) {
     const Recording recording = read(fraps().text());
     EXPECT_EQ(recording.format, "FRAPS");
@@ -218,6 +267,28 @@ TEST(Formats, CapFrameXJsonKeepsWhatItCouldNotMeasureAsNaN) {
     EXPECT_EQ(recording.trace.rows[0].frame_ms, 16.1);
     for (const std::size_t i : {1u, 2u, 3u}) EXPECT_TRUE(std::isnan(recording.trace.rows[i].frame_ms));
     EXPECT_TRUE(has_note(recording, "2 frames without a time (the first in entry 2)"));
+}
+
+TEST(Formats, CapFrameXJsonHasTwoNamesForATime) {
+    for (const char* cpu : {"CpuActive", "MsCPUBusy"}) {
+        for (const char* gpu : {"GpuActive", "MsGPUBusy"}) {
+            const std::string more = std::string(",\"") + cpu + "\":[5.1,5.2,5.3],\"" + gpu + "\":[3.1,3.2,3.3]";
+            expect_three_frames(read(capframex_json(json_run("16.1,16.2,16.3", more))), true, true);
+        }
+    }
+}
+
+// The same names stand elsewhere in these files too.
+TEST(Formats, CapFrameXJsonReadsOnlyTheDataOfItsRuns) {
+    const std::string decoy = R"({"MsBetweenPresents":[1,2,3,4],"CaptureData":{"MsBetweenPresents":[5]}})";
+    const std::string run = "{\"SensorData\":" + decoy + ",\"MsBetweenPresents\":[9]," +
+                            json_run("16.1,16.2,16.3", ",\"Nested\":" + decoy).substr(1);
+    const std::string text =
+        "{\"Other\":[" + decoy + "],\"Info\":{\"Nested\":{\"GPU\":\"x\"},\"GPU\":\"y\"},\"Runs\":[" + run + "]}";
+    const Recording recording = read(text);
+    expect_three_frames(recording, false, false);
+    EXPECT_EQ(recording.streams.size(), 1u);
+    EXPECT_EQ(recording.trace.settings.at("GPU"), "y");
 }
 
 TEST(Formats, DamagedJsonIsRefusedByItsLine) {

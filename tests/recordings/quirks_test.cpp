@@ -224,6 +224,167 @@ TEST(Quirks, GeneratedFramesPresentedApartGiveTheirTimeToTheNext) {
     EXPECT_TRUE(contains(refusal(table.text()), "found no frame of PresentMon current"));
 }
 
+TEST(Quirks, AFrameIsUnshownExactlyWhereItsRowSaysSo) {
+    const auto is_unshown = [](Table table, std::size_t column, const std::string& told) {
+        for (std::vector<std::string>& row : table.rows) row[column] = "16.6";
+        table.rows[1][column] = told;
+        const Recording recording = read(table.text());
+        EXPECT_EQ(recording.trace.rows.size(), 3u) << "it was rendered";
+        return has_note(recording, "1 frame dropped, never shown (in line 3)");
+    };
+    constexpr std::size_t displayed = 8;
+    for (const char* told : {"0", "0.0", "0.0000", "-0", "NA", "na", "N/A", "-nan(ind)"})
+        EXPECT_TRUE(is_unshown(presentmon_2(), displayed, told)) << told;
+    for (const char* told : {"", "0.0001", "16.6", "-1"})
+        EXPECT_FALSE(is_unshown(presentmon_2(), displayed, told)) << told;
+    for (const char* name : {"DisplayedTime", "MsUntilDisplayed", "MsBetweenDisplayChange"}) {
+        Table table = presentmon_2();
+        table.columns[displayed] = name;
+        EXPECT_TRUE(is_unshown(table, displayed, "0")) << name;
+    }
+}
+
+TEST(Quirks, DroppedTellsMoreThanTheDisplaysTime) {
+    constexpr std::size_t dropped = 4, display_change = 7;
+    for (const char* told : {"1", "true", "TRUE"}) {
+        Table table = presentmon_1();
+        table.rows[1][dropped] = told;
+        table.rows[1][display_change] = "16.6";
+        EXPECT_TRUE(has_note(read(table.text()), "1 frame dropped")) << told;
+    }
+    for (const char* told : {"0", "false", "False", "", "NA"}) {
+        Table table = presentmon_1();
+        table.rows[1][dropped] = told;
+        table.rows[1][display_change] = "0";
+        EXPECT_FALSE(has_note(read(table.text()), "dropped")) << told;
+    }
+}
+
+TEST(Quirks, WhatIsNotCalledGeneratedIsTheApplicationsOwn) {
+    constexpr std::size_t type = 3;
+    for (const char* told : {"", "NA", "na", "N/A", "Application", "APPLICATION"}) {
+        Table table = presentmon_2();
+        table.rows[1][type] = told;
+        const Recording recording = read(table.text());
+        EXPECT_EQ(frame_times(recording), (std::vector<double>{16.1, 16.2, 16.3})) << told;
+        EXPECT_FALSE(has_note(recording, "generated")) << told;
+    }
+    for (const char* told : {"Repeated", "AMD_AFMF", "Unspecified", "Applications"}) {
+        Table table = presentmon_2();
+        table.rows[1][type] = told;
+        EXPECT_EQ(read(table.text()).trace.rows.size(), 2u) << told;
+    }
+}
+
+TEST(Quirks, TimesThatAreNotToldAreOfNoPresent) {
+    constexpr std::size_t type = 4, time = 5, frame_time = 6;
+    for (const char* told : {"", "NA"}) {
+        Table table = presentmon_current();
+        table.rows[0][type] = "AMD_AFMF";
+        for (std::vector<std::string>& row : table.rows) row[time] = told;
+        const Recording recording = read(table.text());
+        ASSERT_EQ(recording.trace.rows.size(), 2u);
+        EXPECT_NEAR(recording.trace.rows[0].frame_ms, std::stod(table.rows[0][frame_time]) + 16.2, 1e-9)
+            << "nothing says that the two rows are of one present";
+        EXPECT_EQ(recording.trace.rows[1].frame_ms, 16.3) << "waiting time is given once";
+    }
+}
+
+TEST(Quirks, EveryNameThatATimeHadIsRead) {
+    const auto with = [](const std::vector<std::string>& names) {
+        Table table;
+        table.columns = {"Application", "MsBetweenPresents"};
+        table.rows = {{"a.exe", "16"}};
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            table.columns.push_back(names[i]);
+            table.rows[0].push_back(std::to_string(i + 1));
+        }
+        return read(table.text()).trace.rows.at(0);
+    };
+    for (const char* name : {"MsCPUBusy", "CPUBusy", "CpuActive"}) {
+        EXPECT_EQ(with({name}).cpu_ms, 1) << name;
+        EXPECT_TRUE(std::isnan(with({name}).gpu_ms)) << name;
+    }
+    for (const char* name : {"MsGPUBusy", "GPUBusy", "MsGPUActive", "GpuActive"}) {
+        EXPECT_EQ(with({name}).gpu_ms, 1) << name;
+        EXPECT_TRUE(std::isnan(with({name}).cpu_ms)) << name;
+    }
+    EXPECT_EQ(with({"MsGPUActive", "MsGPUBusy"}).gpu_ms, 2) << "what is busy was measured, not what was open";
+}
+
+TEST(Quirks, EveryNameThatATimeOfPresentHadTellsPresentsApart) {
+    for (const char* name :
+         {"TimeInSeconds", "TimeInMs", "TimeInQPC", "TimeInDateTime", "QPCTime", "CPUStartTime", "CPUStartTimeInMs",
+          "CPUStartQPC", "CPUStartQPCTime", "CPUStartQPCTimeInMs", "CPUStartDateTime"}) {
+        Table table = generated_frames();
+        table.columns[5] = name;
+        EXPECT_EQ(frame_times(read(table.text())), (std::vector<double>{20, 20, 20})) << name;
+    }
+}
+
+TEST(Quirks, OneColumnOfTheToolsOwnTellsItsFormat) {
+    struct Mark {
+        const char *format, *time, *column;
+    };
+    constexpr const char *old_time = "MsBetweenPresents", *new_time = "FrameTime";
+    for (const Mark& mark : {Mark{"FrameView", old_time, "Resolution"},
+                             {"FrameView", old_time, "Render Queue Depth"},
+                             {"OCAT", old_time, "Motherboard"},
+                             {"OCAT", old_time, "Base Driver Version"},
+                             {"OCAT", old_time, "Driver Package"},
+                             {"PresentMon current", old_time, "PresentRuntime"},
+                             {"PresentMon current", old_time, "MsCPUBusy"},
+                             {"PresentMon current", old_time, "MsGPUBusy"},
+                             {"PresentMon current", old_time, "MsBetweenAppStart"},
+                             {"PresentMon current", old_time, "FrameType"},
+                             {"PresentMon 1.x", old_time, "Runtime"},
+                             {"PresentMon 2.x", new_time, "CPUBusy"},
+                             {"PresentMon 2.x", new_time, "GPUBusy"},
+                             {"PresentMon 2.x", new_time, "DisplayedTime"},
+                             {"PresentMon 2.x", new_time, "Application"}}) {
+        Table table;
+        table.columns = {mark.time, mark.column};
+        table.rows = {{"16", ""}};
+        EXPECT_EQ(read(table.text()).format, mark.format) << mark.column;
+    }
+}
+
+TEST(Quirks, TimesAtTheirLimitsAreKept) {
+    constexpr double longest = 600'000;  // [ms]
+    Table table = presentmon_2();
+    for (std::vector<std::string>& row : table.rows) row[5] = "600000";  // one would make the others far too short
+    table.rows[1][6] = "0";
+    table.rows[2][7] = "600000";
+    const Recording recording = read(table.text());
+    EXPECT_EQ(recording.trace.rows[0].frame_ms, longest);
+    EXPECT_EQ(recording.trace.rows[1].cpu_ms, 0);
+    EXPECT_EQ(recording.trace.rows[2].gpu_ms, longest);
+    EXPECT_FALSE(has_note(recording, "NaN"));
+    table.rows[2][7] = "600000.1";
+    EXPECT_TRUE(std::isnan(read(table.text()).trace.rows[2].gpu_ms));
+}
+
+TEST(Quirks, StreamsDifferByAnyOfTheirThreeNames) {
+    Table table = presentmon_1();
+    const std::vector<std::string> row = table.rows[0];
+    for (const std::size_t name : {0, 1, 2}) {
+        table.rows.push_back(row);
+        table.rows.back()[name] = "other";
+    }
+    const Recording recording = read(table.text());
+    ASSERT_EQ(recording.streams.size(), 4u);
+    EXPECT_EQ(recording.streams[0].frames, 3);
+    for (const std::size_t i : {1, 2, 3}) EXPECT_EQ(recording.streams[i].frames, 1) << i;
+}
+
+TEST(Quirks, OfStreamsEquallyBusyTheFirstIsTaken) {
+    Table table = presentmon_1();
+    for (int i = 0; i < 3; ++i) table.rows.push_back({"b.exe", "13", "0xB0", "DXGI", "0", "0.1", "8", "8", "1"});
+    EXPECT_EQ(read(table.text()).trace.settings.at("process"), "a.exe");
+    std::rotate(table.rows.begin(), table.rows.begin() + 3, table.rows.end());
+    EXPECT_EQ(read(table.text()).trace.settings.at("process"), "b.exe");
+}
+
 Table of_times(const std::vector<double>& times) {
     Table table = presentmon_1();
     table.rows.clear();
@@ -244,6 +405,27 @@ TEST(Quirks, PresentsFarShorterThanThoseBesideAreFrameGeneration) {
     EXPECT_EQ(frame_times(four), std::vector<double>(20, 17.25));
     EXPECT_TRUE(has_note(two, "20 presents are far shorter")) << two.notes[0];
     EXPECT_EQ(two.streams[0].frames, 20);
+}
+
+// A tenth of its neighbours, three in a row, a tenth of all presents: each is the limit, not beyond it.
+TEST(Quirks, FrameGenerationIsTakenForItUpToItsLimits) {
+    const auto repeated = [](std::vector<double> group) {
+        std::vector<double> times;
+        for (int i = 0; i < 20; ++i) times.insert(times.end(), group.begin(), group.end());
+        return of_times(times).text();
+    };
+    EXPECT_EQ(read(repeated({20, 1.999})).trace.rows.size(), 20u);
+    EXPECT_EQ(read(repeated({20, 2})).trace.rows.size(), 40u) << "a tenth is not less than a tenth";
+    EXPECT_EQ(read(repeated({20, 1, 1, 1})).trace.rows.size(), 20u);
+    EXPECT_EQ(read(repeated({20, 1, 1, 1, 1})).trace.rows.size(), 100u) << "four in a row are frames";
+    EXPECT_EQ(read(repeated({20, 20, 20, 20, 20, 20, 20, 20, 20, 1})).trace.rows.size(), 180u);
+    EXPECT_EQ(read(repeated({20, 20, 20, 20, 20, 20, 20, 20, 20, 20, 1})).trace.rows.size(), 220u) << "too few";
+    EXPECT_EQ(read(repeated({20, 1, 5})).trace.rows.size(), 60u) << "not far shorter than the one behind";
+}
+
+TEST(Quirks, FrameGenerationKeepsTheClockAndEachFramesOwnPart) {
+    const Recording recording = read(of_times({10, 0.5, 20, 0.25, 0.125, 30, 40, 1}).text());
+    EXPECT_EQ(frame_times(recording), (std::vector<double>{10.5, 20.375, 30, 41}));
 }
 
 TEST(Quirks, AFewShortPresentsAreNoFrameGeneration) {

@@ -39,10 +39,15 @@ double any_double(std::mt19937_64& random) {
     return std::isnan(value) ? std::numeric_limits<double>::quiet_NaN() : value;
 }
 
+// Up to 2^53, which a double still tells apart.
+std::int64_t any_step_count(std::mt19937_64& random) {
+    return static_cast<std::int64_t>(random() >> (11 + random() % 53));
+}
+
 TraceRow any_row(std::mt19937_64& random, std::int64_t frame) {
     TraceRow row;
     row.frame = frame;
-    for (double* value : {&row.target_ms, &row.frame_ms, &row.cpu_ms, &row.gpu_ms, &row.range})
+    for (double* value : {&row.target_ms, &row.frame_ms, &row.cpu_ms, &row.gpu_ms, &row.range, &row.predicted_ms})
         *value = any_double(random);
     row.decision.state = static_cast<State>(random() % 3);
     row.decision.motion_distance = uniform(random, 1e-3, 1e3);
@@ -52,10 +57,9 @@ TraceRow any_row(std::mt19937_64& random, std::int64_t frame) {
         *count = static_cast<std::int64_t>(random() >> (1 + random() % 63));
     }
     for (std::uint64_t steps = random() % 3; steps > 0; --steps) {
-        row.motion.push_back(
-            {uniform(random, 0, 1e3), static_cast<std::int64_t>(random() >> 12), uniform(random, 0, 9)});
+        row.motion.push_back({uniform(random, 0, 1e3), any_step_count(random), uniform(random, 0, 9)});
         row.splats.push_back(
-            {uniform(random, 0, 32), static_cast<std::int64_t>(random() >> 40), 7, uniform(random, 0, 9)});
+            {uniform(random, 0, 32), any_step_count(random), any_step_count(random), uniform(random, 0, 9)});
     }
     return row;
 }
@@ -78,7 +82,8 @@ TEST(Trace, EveryRowReadsBackToTheSameBits) {
         EXPECT_EQ(a.motion, b.motion);
         EXPECT_EQ(a.splats, b.splats);
         EXPECT_TRUE(same_bits(a.target_ms, b.target_ms) && same_bits(a.frame_ms, b.frame_ms) &&
-                    same_bits(a.cpu_ms, b.cpu_ms) && same_bits(a.gpu_ms, b.gpu_ms) && same_bits(a.range, b.range))
+                    same_bits(a.cpu_ms, b.cpu_ms) && same_bits(a.gpu_ms, b.gpu_ms) && same_bits(a.range, b.range) &&
+                    same_bits(a.predicted_ms, b.predicted_ms))
             << "row " << i;
     }
 }
@@ -135,6 +140,39 @@ TEST(Trace, DamagedForecastIsNamedByItsLine) {
         } catch (const std::runtime_error& error) {
             EXPECT_NE(std::string(error.what()).find(":2: "), std::string::npos) << error.what();
         }
+    }
+}
+
+TEST(Trace, CountsOfStepsThatNoDoubleTellsApartAreTheLargestThatOneDoes) {
+    constexpr std::int64_t largest = std::int64_t{1} << 53;
+    const std::string wide = std::string(header, std::strlen(header) - 1) + ",motion_steps,splat_steps\n";
+    const std::string row = std::string(good_row, std::strlen(good_row) - 1);
+    for (const auto& [text, count] :
+         {std::pair{"9007199254740991", largest - 1}, std::pair{"9007199254740992", largest},
+          std::pair{"1e300", largest}, std::pair{"inf", largest}}) {
+        const std::string n = text;
+        const TraceRow read_row = read(wide + row + ",inf:" + n + ":0,0:" + n + ":" + n + ":0\n").rows.at(0);
+        EXPECT_EQ(read_row.motion[0].updates, count) << text;
+        EXPECT_EQ(read_row.splats[0].triangles, count) << text;
+        EXPECT_EQ(read_row.splats[0].points, count) << text;
+    }
+}
+
+TEST(Trace, EveryFieldOfAStepHasItsPlace) {
+    const std::string wide = std::string(header, std::strlen(header) - 1) + ",splat_steps,predicted_ms,motion_steps\n";
+    const std::string row = std::string(good_row, std::strlen(good_row) - 1);
+    const TraceRow read_row = read(wide + row + ",0:900:1:2.5 4:800:7:8,12.5,inf:5:0.25 3:2:1.5\n").rows.at(0);
+    EXPECT_EQ(read_row.motion, (std::vector<MotionStep>{{INFINITY, 5, 0.25}, {3, 2, 1.5}}));
+    EXPECT_EQ(read_row.splats, (std::vector<SplatStep>{{0, 900, 1, 2.5}, {4, 800, 7, 8}}));
+    EXPECT_EQ(read_row.predicted_ms, 12.5);
+}
+
+TEST(Trace, DecisionsAtTheirLimitsAreRead) {
+    const std::string before = std::string(header) + "0,16.6,20,3,nan,2,", after = ",10,0,300,4,200\n";
+    EXPECT_EQ(read(before + "inf,32" + after).rows.at(0).decision.splat_size, 32);
+    EXPECT_EQ(read(before + "5e-324,0" + after).rows.at(0).decision.motion_distance, 5e-324);
+    for (const char* bad : {"100,32.001", "100,-0.001", "100,nan", "-1,1.5", "0,1.5"}) {
+        EXPECT_THROW(read(before + bad + after), std::runtime_error) << bad;
     }
 }
 
