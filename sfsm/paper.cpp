@@ -152,7 +152,7 @@ void shorten(Memory& m, const Constants& c) {
 
 void lengthen(Memory& m, const Constants& c) {
     const double distance = longer_distance(m, c);
-    m.distance = distance < m.range ? distance : whole_range;
+    m.distance = is_all_moving(m) || distance >= m.range ? whole_range : distance;
 }
 
 // S_0 = 0 is the triangles just drawn, so the first splat is already one step of eq. 7.

@@ -74,7 +74,7 @@ struct PaperMemory {
     int i = 0;             // of eq. 2; 1 stands for all i > 0
     int fast_times = 0;    // in a row, below the return margin with nothing left to give back in this state
     int patience = 0;      // how many of them state 2 asks for
-    int since_return = 0;  // times since state 2 was last left; at most PaperConstants::trial
+    int since_return = 0;  // times in state 1 since state 2 was last left; at most PaperConstants::trial
 };
 
 // The first row of the present state whose guard holds is taken, once for every time that answers the last decision.

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "sfsm/paper.h"
+#include "tests/sfsm/driven.h"
 #include "tests/sfsm/simulation.h"
 
 namespace sfsm {
@@ -233,37 +234,12 @@ TEST(PaperLaw, LateTimesAreRecognisedWhileTheRangeMoves) {
     EXPECT_NEAR(rows.back().frame_ms, 60, 30);
 }
 
-// A law driven by hand: each time answers the newest decision.
-struct Driven {
-    explicit Driven(double target_ms) : target(target_ms), decision(law.decide({target, range})) {}
-
-    PaperLaw law;
-    double target;
-    double range = test_range;
-    Decision decision;
-
-    const Decision& answer(double ms) {
-        law.observe({0, ms, decision, {}});
-        return decision = law.decide({target, range});
-    }
-    const Decision& retarget(double ms) { return decision = law.decide({target = ms, range}); }
-    const Decision& reach(double metres) { return decision = law.decide({target, range = metres}); }
-
-    // Answers `ms` for as long as the state is the present one. Returns how many times that took.
-    int leave_state(double ms) {
-        constexpr int most_times = 1000;  // patience is at most 128
-        const State state = decision.state;
-        int times = 0;
-        for (; decision.state == state && times < most_times; ++times) answer(ms);
-        EXPECT_LT(times, most_times) << "it never left state " << static_cast<int>(state);
-        return times;
-    }
-};
+using Drive = Driven<PaperLaw>;
 
 // State 2 at the smallest splats, after returns to triangles that failed.
-Driven after_failed_returns(double target_ms) {
+Drive after_failed_returns(double target_ms) {
     constexpr int most_times = 2000;  // the waits double: 48 is reached within some hundred
-    Driven run(target_ms);
+    Drive run(target_ms);
     const Plant gap{900, 0, 20, 15};
     const auto is_there = [&] { return run.law.memory().patience >= 48 && run.law.memory().fast_times >= 10; };
     for (int i = 0; !is_there() && i < most_times; ++i) run.answer(gap.time(run.decision, test_range));
@@ -282,7 +258,7 @@ TEST(PaperLaw, PointsBeginBelowTwoThirdsOfTheRange) {
 }
 
 TEST(PaperLaw, AnotherTimeAtTheSameDistanceKeepsTheSlope) {
-    Driven run(100);
+    Drive run(100);
     run.answer(130);  // state 0
     run.answer(130);  // D = L
     const Decision held = run.decision;
@@ -292,7 +268,7 @@ TEST(PaperLaw, AnotherTimeAtTheSameDistanceKeepsTheSlope) {
 }
 
 TEST(PaperLaw, EqualTimesHaveNoSlopeToFollow) {
-    Driven run(100);
+    Drive run(100);
     run.answer(130);                                       // state 0
     run.answer(130);                                       // D = L
     const double rising = run.answer(94).motion_distance;  // 5/6 L
@@ -303,7 +279,7 @@ TEST(PaperLaw, EqualTimesHaveNoSlopeToFollow) {
 }
 
 TEST(PaperLaw, TheWholeRangeStaysWholeWhileItMoves) {
-    Driven run(100);
+    Drive run(100);
     run.answer(101);
     for (const double range : {200.0, 350.0, 40.0, 90.0}) {
         EXPECT_EQ(run.reach(range), (Decision{State::slowed, range, 0}));
@@ -326,7 +302,7 @@ TEST(PaperLaw, LessThanTheReturnMarginOpensNoWayBack) {
 }
 
 TEST(PaperLaw, AReturnToTrianglesSurvivesASmallMiss) {
-    Driven run(300);
+    Drive run(300);
     for (const double ms : {900, 900, 900}) run.answer(ms);
     ASSERT_EQ(run.decision.state, State::points);
     run.leave_state(30);
@@ -335,13 +311,13 @@ TEST(PaperLaw, AReturnToTrianglesSurvivesASmallMiss) {
 }
 
 TEST(PaperLaw, ANewTargetForgetsFailedReturns) {
-    Driven run = after_failed_returns(300);
+    Drive run = after_failed_returns(300);
     run.retarget(310);
     EXPECT_EQ(run.leave_state(30), constants.first_patience);
 }
 
 TEST(PaperLaw, ALowerTargetIsNotMistakenForLongPatience) {
-    Driven run = after_failed_returns(300);
+    Drive run = after_failed_returns(300);
     EXPECT_EQ(run.retarget(20), (Decision{State::points, run.decision.motion_distance, 2 * constants.tau}));
 }
 
