@@ -1,0 +1,139 @@
+// Rises of detail that failed: how far and how soon they are tried again.
+#include "sfsm/ceiling.h"
+
+#include <gtest/gtest.h>
+
+namespace sfsm {
+namespace {
+
+constexpr int trial = 24, first_wait = 16, longest = 1024;  // decisions, as ceiling.h tells
+constexpr double ms = 16;
+
+void pass(Ceiling& ceiling, int decisions, double ms_at_floor = ms) {
+    for (int i = 0; i < decisions; ++i) ceiling.step(ms_at_floor);
+}
+
+// A rise from 0.4 to 0.8 that failed at once, back to 0.4.
+void fail(Ceiling& ceiling) {
+    ceiling.rise(0.4, 0.8, ms);
+    ceiling.fall(0.8, 0.4);
+}
+
+// Decisions until a rise from `from` is allowed.
+int wait(Ceiling ceiling, double from) {
+    int decisions = 0;
+    for (; ceiling.rise(from, 1, ms) == from && decisions < 2 * longest; ++decisions) ceiling.step(ms);
+    return decisions;
+}
+
+TEST(Ceiling, RisesAreFreeUntilOneFails) {
+    Ceiling ceiling;
+    for (int i = 1; i < 100; ++i) {
+        EXPECT_EQ(ceiling.rise(0.01 * (i - 1), 0.01 * i, ms), 0.01 * i);
+        pass(ceiling, i % 40);
+        EXPECT_EQ(ceiling.fall(0.7, 0.01), 0.01) << "what no rise led to";
+    }
+}
+
+TEST(Ceiling, AFailedRiseFallsNoLowerThanItBegan) {
+    for (const auto& [to, expected] : {std::pair{0.7, 0.7}, std::pair{0.41, 0.41}, std::pair{0.1, 0.4}}) {
+        Ceiling ceiling;
+        EXPECT_EQ(ceiling.rise(0.4, 0.8, ms), 0.8);
+        EXPECT_EQ(ceiling.floor(), 0.4);
+        EXPECT_EQ(ceiling.fall(0.8, to), expected);
+    }
+}
+
+TEST(Ceiling, TheSecondFallIsAtLeastHalfWayBack) {
+    for (const auto& [to, expected] : {std::pair{0.74, 0.575}, std::pair{0.5, 0.5}, std::pair{0.1, 0.4}}) {
+        Ceiling ceiling;
+        ceiling.rise(0.4, 0.8, ms);
+        EXPECT_EQ(ceiling.fall(0.8, 0.75), 0.75) << "what is believed, the first time";
+        EXPECT_DOUBLE_EQ(ceiling.fall(0.75, to), expected) << to;
+    }
+}
+
+TEST(Ceiling, EachRiseMayFailOnceAtItsFirstBelief) {
+    Ceiling ceiling;
+    ceiling.rise(0.4, 0.8, ms);
+    ceiling.fall(0.8, 0.4);
+    pass(ceiling, first_wait);
+    ASSERT_DOUBLE_EQ(ceiling.rise(0.4, 1, ms), 0.6);
+    EXPECT_EQ(ceiling.fall(0.6, 0.59), 0.59);
+}
+
+TEST(Ceiling, ARiseIsOnTrialForSoManyDecisions) {
+    for (const int decisions : {0, 1, trial - 1, trial, trial + 1, 1000}) {
+        Ceiling ceiling;
+        ceiling.rise(0.4, 0.8, ms);
+        pass(ceiling, decisions);
+        EXPECT_EQ(ceiling.fall(0.8, 0.1), decisions <= trial ? 0.4 : 0.1) << decisions;
+    }
+    Ceiling ceiling;  // and after each fall anew
+    ceiling.rise(0.4, 0.8, ms);
+    pass(ceiling, trial);
+    ceiling.fall(0.8, 0.7);
+    pass(ceiling, trial);
+    EXPECT_EQ(ceiling.fall(0.7, 0.1), 0.4);
+}
+
+TEST(Ceiling, WaitsDoubleWithEachFailureUpToTheLongest) {
+    Ceiling ceiling;
+    ceiling.rise(0.4, 0.8, ms);
+    double at = 0.8;
+    for (const int expected : {16, 32, 64, 128, 256, 512, longest}) {
+        // Fails again and again before its trial is over: each fall is one more failure.
+        ceiling.fall(at, at - 0.001);
+        EXPECT_EQ(wait(ceiling, 0.4), expected);
+        at = 0.4 + (at - 0.4) / (expected == 16 ? 1 : 2) - (expected == 16 ? 0.001 : 0);
+    }
+}
+
+TEST(Ceiling, BelowItRisesGoHalfWayAndAreWatched) {
+    Ceiling ceiling;
+    fail(ceiling);
+    pass(ceiling, first_wait);
+    EXPECT_EQ(Ceiling(ceiling).rise(0.4, 0.45, ms), 0.45) << "no farther than asked";
+    EXPECT_DOUBLE_EQ(ceiling.rise(0.4, 1, ms), 0.6);
+    EXPECT_EQ(wait(ceiling, 0.6), trial);
+    pass(ceiling, trial);
+    EXPECT_DOUBLE_EQ(ceiling.rise(0.6, 1, ms), 0.7);
+    pass(ceiling, trial);
+    EXPECT_EQ(ceiling.rise(0.785, 1, ms), 0.785) << "not worth a rise";
+    EXPECT_GT(ceiling.rise(0.775, 1, ms), 0.775);
+}
+
+TEST(Ceiling, IsForgottenAfterTheLongestWait) {
+    Ceiling ceiling;
+    fail(ceiling);
+    pass(ceiling, longest - 1);
+    EXPECT_DOUBLE_EQ(Ceiling(ceiling).rise(0.4, 1, ms), 0.6);
+    pass(ceiling, 1);
+    EXPECT_EQ(ceiling.rise(0.4, 1, ms), 1);
+}
+
+TEST(Ceiling, IsForgottenWhenTheLoadHasFallenByATenth) {
+    for (const auto& [share, is_forgotten] : {std::pair{0.91, false}, std::pair{0.89, true}, std::pair{0.1, true}}) {
+        Ceiling ceiling;
+        fail(ceiling);
+        pass(ceiling, trial, 0.1 * ms);  // still on trial: what is predicted now is what proved wrong
+        EXPECT_LT(Ceiling(ceiling).rise(0.4, 1, ms), 1);
+        pass(ceiling, 2, share * ms);
+        EXPECT_EQ(ceiling.rise(0.4, 1, ms) == 1, is_forgotten) << share;
+    }
+}
+
+TEST(Ceiling, ForgettingEndsTheWaitAndItsGrowth) {
+    Ceiling ceiling;
+    ceiling.rise(0.4, 0.8, ms);
+    ceiling.fall(0.8, 0.75);
+    ceiling.fall(0.75, 0.5);
+    ceiling.fall(0.5, 0.4);
+    ceiling.forget();
+    EXPECT_EQ(ceiling.rise(0.4, 0.8, ms), 0.8);
+    ceiling.fall(0.8, 0.4);
+    EXPECT_EQ(wait(ceiling, 0.4), first_wait);
+}
+
+}  // namespace
+}  // namespace sfsm
