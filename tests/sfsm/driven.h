@@ -9,7 +9,9 @@ namespace sfsm {
 
 template <class Law>
 struct Driven {
-    explicit Driven(double target_ms) : target(target_ms), decision(law.decide({target, range})) {}
+    template <class... Constants>
+    explicit Driven(double target_ms, const Constants&... constants)
+        : law(constants...), target(target_ms), decision(law.decide({target, range})) {}
 
     Law law;
     double target;
