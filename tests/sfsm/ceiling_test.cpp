@@ -58,8 +58,9 @@ TEST(Ceiling, EachRiseMayFailOnceAtItsFirstBelief) {
     ceiling.rise(0.4, 0.8, ms);
     ceiling.fall(0.8, 0.4);
     pass(ceiling, first_wait);
-    ASSERT_DOUBLE_EQ(ceiling.rise(0.4, 1, ms), 0.6);
-    EXPECT_EQ(ceiling.fall(0.6, 0.59), 0.59);
+    const double higher = ceiling.rise(0.4, 1, ms);
+    ASSERT_DOUBLE_EQ(higher, 0.6);
+    EXPECT_EQ(ceiling.fall(higher, 0.59), 0.59);
 }
 
 TEST(Ceiling, ARiseIsOnTrialForSoManyDecisions) {

@@ -196,6 +196,44 @@ TEST(PredictiveLaw, ANewTargetIsAnsweredInItsFrame) {
     EXPECT_NEAR(rows[300].frame_ms, 0.8 * target_ms, 0.05 * target_ms);
 }
 
+// What failed under one target may fit the next.
+TEST(PredictiveLaw, ANewTargetTriesAgainWhatWasTooDear) {
+    constexpr std::int64_t at = 1000, prompt = 40;
+    const Curve stairs = [](double detail) { return toy(std::floor(detail * 8) / 8); };  // 0.90 and 1.05 of the target
+    const Target target = [](std::int64_t frame) { return (frame < at ? 1 : 1.1) * target_ms; };
+    PredictiveLaw law;
+    const auto rows = run(law, {knob(stairs, steady(), 0.002), target, at + 300, 1});
+    double higher = 0;
+    for (std::int64_t frame = at + prompt; frame < at + 300; ++frame)
+        higher += rows[static_cast<std::size_t>(frame)].frame_ms > target_ms ? 1 : 0;
+    EXPECT_GT(higher / (300 - prompt), 0.9);
+}
+
+// D is a share of L: a time tells of the detail that its decision was when it was made.
+TEST(PredictiveLaw, LateTimesAreOfTheirOwnRange) {
+    for (int delay = 0; delay <= most_delay; ++delay) {
+        std::mt19937_64 random(3);
+        PredictiveLaw law;
+        std::vector<TraceRow> rows;
+        for (std::int64_t frame = 0; frame < 300; ++frame) {
+            if (frame > delay) {
+                const TraceRow& arrived = rows[static_cast<std::size_t>(frame - 1 - delay)];
+                law.observe({arrived.frame, arrived.frame_ms, arrived.decision, {}});
+            }
+            TraceRow row;
+            row.frame = frame;
+            row.range = uniform(random, 60, 600);
+            row.decision = law.decide({1.25 * target_ms, row.range});  // met in state 1
+            row.frame_ms = toy(detail_of(row.decision, row.range)) * target_ms;
+            rows.push_back(row);
+            if (frame < 60) continue;
+            ASSERT_EQ(row.decision.state, State::slowed) << frame;
+            ASSERT_LE(row.decision.motion_distance, row.range) << frame;
+            ASSERT_NEAR(row.frame_ms, 1.25 * target_ms, 0.03 * target_ms) << "delay " << delay << " frame " << frame;
+        }
+    }
+}
+
 // --- With a forecast.
 
 // A view of people whose motion and shapes can be thinned, and a renderer with prices.
@@ -379,6 +417,90 @@ TEST(PredictiveForecast, StatusTellsPricesAndWhatToExpect) {
     EXPECT_GT(status.uncertainty, 0);
     EXPECT_LT(status.uncertainty, 0.05);
     EXPECT_NEAR(status.noise, 0.01, 0.005);
+}
+
+TEST(PredictiveForecast, ForecastsThatAreOffAreMendedWhileDecisionsChange) {
+    const Target target = [](std::int64_t frame) { return frame % 2 == 0 ? 14.0 : 20.0; };
+    for (const double drawn : {0.9, 1.1}) {
+        Scene scene = scene_of(20'000);
+        scene.drawn = drawn;
+        PredictiveLaw law;
+        const auto rows = run(law, ForecastLoop{[&](std::int64_t) -> const Scene& { return scene; }, target});
+        for (const int parity : {0, 1}) {
+            double sum = 0;
+            for (std::size_t i = 200 + parity; i < rows.size(); i += 2) sum += rows[i].frame_ms / target(i) / 200;
+            EXPECT_NEAR(sum, 1, 0.02) << drawn << ", every other frame from " << parity;
+        }
+    }
+}
+
+TEST(PredictiveForecast, NobodyMovesBeyondARangeThatHasShrunk) {
+    Scene scene;
+    scene.prices = {44, 0, 8.6e-6, 1.16e-6, 0.0382};
+    scene.people = 20'000;
+    scene.farness = 16;
+    scene.count();
+    PredictiveLaw law;
+    const auto rows =
+        run(law, ForecastLoop{[&](std::int64_t) -> const Scene& { return scene; }, constant(300), 100, 0});
+    const Decision before = rows.back().decision;
+    ASSERT_EQ(before.state, State::slowed);
+    for (const double share : {0.9, 0.5, 0.2}) {
+        const double range = share * before.motion_distance;
+        const Decision decision = law.decide({300, range, &scene.forecast});
+        EXPECT_TRUE(decision.state == State::original || decision.motion_distance <= range) << share;
+    }
+}
+
+// Two views of the same work, of which the second loses its looks where the first did not.
+TEST(PredictiveForecast, ABetterDecisionOfEqualTimeIsTaken) {
+    Scene before = scene_of(20'000), after = before;
+    for (MotionStep& step : before.motion) step.loss_px *= 0.01;
+    for (MotionStep& step : after.motion) step.loss_px *= 100;
+    before.forecast = {before.forecast.people, before.motion, before.splats};
+    after.forecast = {after.forecast.people, after.motion, after.splats};
+    PredictiveLaw law;
+    const auto rows =
+        run(law, ForecastLoop{[&](std::int64_t frame) -> const Scene& { return frame < 300 ? before : after; },
+                              constant(target_ms), 310, 0, 0.002});
+    const auto loss = [&](const Decision& d, const Scene& scene) {
+        return plan_at(scene.forecast, test_range, std::min(d.motion_distance, test_range), d.splat_size).loss_px;
+    };
+    const WorkPrices prices{before.prices.frame, before.prices.triangle, before.prices.point, before.prices.update};
+    for (const std::size_t frame : {299u, 305u}) {
+        const Scene& scene = frame < 300 ? before : after;
+        const double least = least_loss_plan(scene.forecast, test_range, prices, target_ms).loss_px;
+        EXPECT_LE(loss(rows[frame].decision, scene), 1.25 * least) << frame;
+        EXPECT_NEAR(rows[frame].frame_ms, target_ms, 0.05 * target_ms) << frame;
+    }
+}
+
+// The way down is learned in few single frames, while there is time for them.
+TEST(PredictiveForecast, ProbesAreFewAndApartAndOfTwoSplatSizes) {
+    const Scene scene = scene_of(2000);
+    PredictiveLaw law;
+    const auto rows =
+        run(law, ForecastLoop{[&](std::int64_t) -> const Scene& { return scene; }, constant(target_ms), 600, 2, 0.01});
+    std::vector<double> sizes;
+    std::int64_t slowed = 0, last = 0;
+    for (const TraceRow& row : rows) {
+        if (row.frame < 12 || row.decision == Decision{}) continue;  // the first times are of a guess
+        EXPECT_GT(row.frame - last, 2) << "each is answered before the next";
+        last = row.frame;
+        if (row.decision.state == State::points) sizes.push_back(row.decision.splat_size);
+        slowed += row.decision.state == State::slowed ? 1 : 0;
+    }
+    EXPECT_LE(slowed, PredictiveOptions{}.probes);
+    EXPECT_EQ(sizes, (std::vector<double>{0.5, 2})) << "the finest, and one four times as coarse";
+}
+
+TEST(PredictiveForecast, ThereIsNoProbeWhileTheTargetIsMissed) {
+    Scene scene = scene_of(2000);
+    scene.prices.frame = 1.2 * target_ms;  // whatever is drawn
+    PredictiveLaw law;
+    const auto rows =
+        run(law, ForecastLoop{[&](std::int64_t) -> const Scene& { return scene; }, constant(target_ms), 400, 0, 0.01});
+    EXPECT_LE(changes(rows, 60, rows.size()), 2);
 }
 
 // --- Anything at all.
