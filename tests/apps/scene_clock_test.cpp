@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 namespace apps {
 namespace {
 
@@ -40,6 +42,18 @@ TEST(SceneClock, OfTheWallLosesNoPartOfATick) {
         ASSERT_LE(static_cast<double>(clock.tick()), 60 * seconds + rounding);
         ASSERT_GT(static_cast<double>(clock.tick()), 60 * seconds - 1 - rounding);
     }
+}
+
+// A pause is told in parts as the frames pass, and no part twice: what is told is never more than has passed.
+TEST(SceneClock, TellsTheSecondsOfAPauseOnce) {
+    const auto begin = std::chrono::steady_clock::now();
+    SceneClock clock(false);
+    clock.paused = true;
+    double told = 0;
+    for (int frame = 0; frame < 20'000; ++frame) told += clock.advance();
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
+    constexpr double rounding = 1e-9;  // [s] of as many additions
+    EXPECT_LE(told, passed.count() + rounding);
 }
 
 }  // namespace
