@@ -345,5 +345,22 @@ TEST(Formats, OurOwnTraces) {
     EXPECT_TRUE(contains(refusal(out.str(), {"a.exe"}), "expected none: trace does not tell them"));
 }
 
+TEST(Formats, OurOwnTracesMayHaveManySettingsAndUnmeasuredFrames) {
+    std::ostringstream out;
+    write_trace_header(out, {{"device", "a,b"}, {"law", "paper"}, {"seed", "1"}});
+    TraceRow row;
+    row.target_ms = 16.6;
+    for (const double ms : {20.0, std::nan(""), 30.0}) {
+        row.frame_ms = ms;
+        write_trace_row(out, row);
+        ++row.frame;
+    }
+    const Recording recording = read(out.str());
+    EXPECT_EQ(recording.format, "trace");
+    EXPECT_EQ(recording.trace.settings.at("seed"), "1");
+    EXPECT_EQ(recording.streams.at(0).frames, 3);
+    EXPECT_NEAR(recording.streams.at(0).seconds, 0.05, 1e-12) << "of the frames that were measured";
+}
+
 }  // namespace
 }  // namespace sfsm

@@ -368,12 +368,12 @@ TEST(Quirks, StreamsDifferByAnyOfTheirThreeNames) {
     Table table = presentmon_1();
     const std::vector<std::string> row = table.rows[0];
     for (const std::size_t name : {0, 1, 2}) {
-        table.rows.push_back(row);
-        table.rows.back()[name] = "other";
+        table.rows.insert(table.rows.end(), {row, row});
+        table.rows.back()[name] = "other";  // right behind one that differs in nothing else
     }
     const Recording recording = read(table.text());
     ASSERT_EQ(recording.streams.size(), 4u);
-    EXPECT_EQ(recording.streams[0].frames, 3);
+    EXPECT_EQ(recording.streams[0].frames, 6);
     for (const std::size_t i : {1, 2, 3}) EXPECT_EQ(recording.streams[i].frames, 1) << i;
 }
 
@@ -383,6 +383,16 @@ TEST(Quirks, OfStreamsEquallyBusyTheFirstIsTaken) {
     EXPECT_EQ(read(table.text()).trace.settings.at("process"), "a.exe");
     std::rotate(table.rows.begin(), table.rows.begin() + 3, table.rows.end());
     EXPECT_EQ(read(table.text()).trace.settings.at("process"), "b.exe");
+}
+
+TEST(Quirks, AGeneratedFrameWithoutAUsableTimeAddsNone) {
+    constexpr std::size_t type = 4, frame_time = 6;
+    for (const char* told : {"NA", "-1", "0", "600001", "inf"}) {
+        Table table = presentmon_current();
+        table.rows[0][type] = "AMD_AFMF";
+        table.rows[0][frame_time] = told;
+        EXPECT_EQ(frame_times(read(table.text())), (std::vector<double>{16.2, 16.3})) << told;
+    }
 }
 
 Table of_times(const std::vector<double>& times) {
