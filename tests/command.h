@@ -83,7 +83,7 @@ inline Outcome run(const std::string& program, const std::string& arguments) {
 }
 
 // The longest that a test waits for another process [s]: far more than any needs, less than ctest gives.
-inline constexpr int patience = 120;
+inline constexpr int wait_limit = 120;
 
 // Signals as a shell sets them for a program. Tests may be called with some ignored (as by nohup) or blocked, which
 // a child of theirs would inherit.
@@ -100,7 +100,7 @@ inline pid_t fork_child() {
     const pid_t pid = fork();
     if (pid != 0) return pid;
     default_signals();
-    alarm(patience);
+    alarm(wait_limit);
     return 0;
 }
 
@@ -117,11 +117,11 @@ inline int wait_for(pid_t pid) {
 inline std::optional<char> read_byte(int descriptor) {
     pollfd source{descriptor, POLLIN, 0};
     char byte = 0;
-    if (poll(&source, 1, 1000 * patience) > 0 && read(descriptor, &byte, 1) == 1) return byte;
+    if (poll(&source, 1, 1000 * wait_limit) > 0 && read(descriptor, &byte, 1) == 1) return byte;
     return std::nullopt;
 }
 
-// A program that runs beside the test; ended with it, or when the tests' patience is.
+// A program that runs beside the test; ended with it, or when the limit is over.
 class Process {
 public:
     // `command[0]` is looked for in PATH. stdout and stderr are thrown away, except what goes to `kept`.
