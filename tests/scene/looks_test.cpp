@@ -1,0 +1,242 @@
+#include "scene/looks.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "scene/random.h"
+#include "tests/scene/statistics.h"
+
+namespace {
+
+using scene::Fans;
+using scene::Palette;
+
+constexpr int drawn = 20000;
+constexpr Fans nobodys{0, 0};
+
+using Rgb = std::tuple<int, int, int>;
+Rgb rgb(glm::u8vec4 color) {
+    return {color.x, color.y, color.z};
+}
+
+// Rec. 601 luma.
+double luma(glm::u8vec4 color) {
+    return 0.299 * color.x + 0.587 * color.y + 0.114 * color.z;
+}
+
+double distance(glm::u8vec4 a, glm::u8vec4 b) {
+    return glm::distance(glm::vec3(a), glm::vec3(b));
+}
+
+std::vector<Palette> dressed(Fans fans, std::uint64_t seed = 1) {
+    std::vector<Palette> result;
+    for (int i = 0; i < drawn; ++i) result.push_back(scene::dress(fans, scene::hash(seed, i)));
+    return result;
+}
+
+std::set<Rgb> shirts_of(const std::vector<Palette>& people) {
+    std::set<Rgb> result;
+    for (const Palette& palette : people) result.insert(rgb(palette.shirt));
+    return result;
+}
+
+double share_in(const std::vector<Palette>& people, const std::set<Rgb>& shirts) {
+    const auto worn = [&](const Palette& palette) { return shirts.contains(rgb(palette.shirt)); };
+    return static_cast<double>(std::count_if(people.begin(), people.end(), worn)) / static_cast<double>(people.size());
+}
+
+std::vector<double> column(const std::vector<Palette>& people, glm::u8vec4 Palette::*part) {
+    std::vector<double> result;
+    for (const Palette& palette : people) result.push_back(luma(palette.*part));
+    return result;
+}
+
+constexpr glm::u8vec4 Palette::*parts[] = {&Palette::skin, &Palette::hair, &Palette::shirt, &Palette::trousers};
+
+TEST(Random, IsSplitmix) {
+    // The first two numbers of the published generator from seed 1234567.
+    EXPECT_EQ(scene::mix(1234567), 6457827717110365317u);
+    EXPECT_EQ(scene::mix(1234567 + 0x9e3779b97f4a7c15u), 3203168211198807973u);
+}
+
+TEST(Random, UnitFillsItsRangeEvenly) {
+    std::vector<std::int64_t> counts(64, 0);
+    for (std::uint64_t i = 0; i < 64000; ++i) {
+        const float value = scene::unit(scene::mix(i));
+        ASSERT_GE(value, 0.0f);
+        ASSERT_LT(value, 1.0f);
+        ++counts[static_cast<std::size_t>(value * 64)];
+    }
+    EXPECT_LT(tests::unevenness(counts), tests::chance);
+    EXPECT_EQ(scene::unit(0), 0.0f);
+    EXPECT_LT(scene::unit(~std::uint64_t{0}), 1.0f);
+    EXPECT_GT(scene::unit(~std::uint64_t{0}), 0.9999f);
+}
+
+TEST(Random, BelowTakesEveryValueEquallyOften) {
+    for (const std::uint32_t n : {1u, 2u, 7u, 240u}) {
+        std::vector<std::int64_t> counts(n, 0);
+        for (std::uint64_t i = 0; i < 100ull * n; ++i) ++counts.at(scene::below(scene::mix(i), n));
+        if (n > 1) {
+            EXPECT_LT(tests::unevenness(counts), tests::chance) << n;
+        }
+        EXPECT_EQ(scene::below(~std::uint64_t{0}, n), n - 1);
+    }
+}
+
+TEST(Random, HashTellsItsArgumentsApart) {
+    std::set<std::uint64_t> seen;
+    for (std::uint64_t a = 0; a < 100; ++a)
+        for (std::uint64_t b = 0; b < 100; ++b) seen.insert(scene::hash(a, b));
+    EXPECT_EQ(seen.size(), 10000u);
+}
+
+TEST(Looks, WhatIsWornHasNothingToDoWithWhatElseIs) {
+    const std::vector<Palette> people = dressed({0.3f, 0.2f});
+    for (const auto a : parts) {
+        for (const auto b : parts) {
+            const bool skin_and_hair = (a == &Palette::skin || a == &Palette::hair) &&
+                                       (b == &Palette::skin || b == &Palette::hair);  // they belong together
+            if (skin_and_hair) continue;
+            if (a != b) {
+                EXPECT_LT(tests::dependence(column(people, a), column(people, b)), tests::chance);
+            }
+        }
+    }
+}
+
+TEST(Looks, EveryColourIsWornAndOpaque) {
+    const std::vector<Palette> people = dressed(nobodys);
+    for (const auto part : parts) {
+        std::set<Rgb> seen;
+        for (const Palette& palette : people) {
+            seen.insert(rgb(palette.*part));
+            ASSERT_EQ((palette.*part).w, 255);
+        }
+        EXPECT_GE(seen.size(), 8u);
+    }
+}
+
+TEST(Looks, ShirtsAndTrousersAreDrawnWithEqualChances) {
+    std::map<Rgb, std::int64_t> shirts, trousers;
+    for (const Palette& palette : dressed(nobodys)) {
+        ++shirts[rgb(palette.shirt)];
+        ++trousers[rgb(palette.trousers)];
+    }
+    for (const auto& worn : {shirts, trousers}) {
+        std::vector<std::int64_t> counts;
+        for (const auto& [color, count] : worn) counts.push_back(count);
+        EXPECT_LT(tests::unevenness(counts), tests::chance);
+    }
+}
+
+TEST(Looks, TeamsAreToldApartFromEachOtherAndTheRest) {
+    const std::set<Rgb> sets[] = {shirts_of(dressed({1, 0})), shirts_of(dressed({0, 1})), shirts_of(dressed(nobodys))};
+    for (const auto& a : sets) {
+        for (const auto& b : sets) {
+            if (&a == &b) continue;
+            for (const Rgb& shirt : a) EXPECT_FALSE(b.contains(shirt));
+        }
+    }
+}
+
+TEST(Looks, AsManyWearATeamsColoursAsItHasFans) {
+    constexpr double tolerance = 0.02;  // five standard deviations of 20,000 draws
+    const std::set<Rgb> home = shirts_of(dressed({1, 0})), away = shirts_of(dressed({0, 1}));
+    for (const Fans fans : {Fans{0.78f, 0.01f}, Fans{0.04f, 0.8f}, Fans{0.24f, 0.06f}}) {
+        const std::vector<Palette> people = dressed(fans, 2);
+        EXPECT_NEAR(share_in(people, home), fans.home, tolerance);
+        EXPECT_NEAR(share_in(people, away), fans.away, tolerance);
+    }
+}
+
+TEST(Looks, HomeIsRedAndAwayIsYellow) {
+    glm::dvec3 home(0), away(0);
+    for (const Palette& palette : dressed({1, 0})) home += glm::dvec3(palette.shirt) / double{drawn};
+    for (const Palette& palette : dressed({0, 1})) away += glm::dvec3(palette.shirt) / double{drawn};
+    EXPECT_GT(home.x, 1.8 * home.y);
+    EXPECT_GT(away.x, 1.8 * away.z);
+    EXPECT_GT(away.y, 1.4 * away.z);
+}
+
+TEST(Looks, EachEndBelongsToATeamAndTheSidesToBothsGuests) {
+    constexpr float beyond = 30.0f, side = 60.0f;  // [m]
+    const scene::Oval oval;
+    const float end = oval.half_straight + beyond;
+    for (const float z : {-30.0f, -1.0f, 1.0f, 30.0f}) {
+        const Fans home = scene::fans_at(oval, {end, z});
+        EXPECT_GT(home.home, 0.7f);
+        EXPECT_LT(home.away, 0.05f);
+    }
+    const Fans away = scene::fans_at(oval, {-end, -20});
+    EXPECT_GT(away.away, 0.7f);
+    EXPECT_LT(away.home, 0.1f);
+    for (const glm::vec2 xz : {glm::vec2(0, side), {0, -side}, {30, side}, {-30, -side}, {-end, 20}}) {
+        const Fans guests = scene::fans_at(oval, xz);
+        EXPECT_GT(guests.home, guests.away);
+        EXPECT_GT(guests.away, 0.02f);
+        EXPECT_LT(guests.home + guests.away, 0.5f);
+    }
+}
+
+TEST(Looks, NobodySeemsToWearNothing) {
+    constexpr double least = 25;  // of 255: a shade apart in a small picture
+    for (const Fans fans : {nobodys, Fans{1, 0}, Fans{0, 1}}) {
+        for (const Palette& palette : dressed(fans)) {
+            ASSERT_GT(distance(palette.shirt, palette.skin), least);
+            ASSERT_GT(distance(palette.trousers, palette.skin), least);
+        }
+    }
+}
+
+TEST(Looks, SkinsGoFromFairToDarkAndFairOnesAreMoreFrequent) {
+    constexpr double middle = 150;  // luma between the fourth and the fifth of eight
+    const std::vector<double> skins = column(dressed(nobodys), &Palette::skin);
+    EXPECT_GT(*std::max_element(skins.begin(), skins.end()), 210);
+    EXPECT_LT(*std::min_element(skins.begin(), skins.end()), 70);
+    const double fair =
+        static_cast<double>(std::count_if(skins.begin(), skins.end(), [](double v) { return v > middle; }));
+    // Both of two draws are darker a quarter of the time.
+    EXPECT_NEAR(fair / drawn, 0.75, 0.02);
+}
+
+TEST(Looks, WhoHasDarkSkinHasDarkHairAndTheFairHaveAny) {
+    constexpr double middle = 150, lightest_dark_hair = 70;  // luma
+    std::set<Rgb> dark, fair;
+    for (const Palette& palette : dressed(nobodys)) {
+        if (luma(palette.skin) > middle) {
+            fair.insert(rgb(palette.hair));
+        } else {
+            dark.insert(rgb(palette.hair));
+            ASSERT_LT(luma(palette.hair), lightest_dark_hair);
+        }
+    }
+    EXPECT_EQ(fair.size(), 10u);
+    EXPECT_EQ(dark.size(), 4u);
+    for (const Rgb& hair : dark) EXPECT_TRUE(fair.contains(hair));
+}
+
+TEST(Looks, HeightsAreNormalUpToTheirLimits) {
+    constexpr double average = 1.70, spread = 0.09;  // [m] of adults
+    std::vector<double> heights;
+    for (std::uint64_t i = 0; i < drawn; ++i) heights.push_back(scene::draw_height(scene::mix(i)));
+    const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
+    EXPECT_NEAR(*low, 1.50, 0.01);
+    EXPECT_NEAR(*high, 2.00, 0.04);
+    EXPECT_NEAR(tests::mean(heights), average, 0.003);
+    // A normal distribution has 68.3 % within one deviation of the mean and 95.4 % within two, half of them below it.
+    const auto share = [&](double from, double to) {
+        const auto within = [&](double height) { return height >= from && height < to; };
+        return static_cast<double>(std::count_if(heights.begin(), heights.end(), within)) / drawn;
+    };
+    EXPECT_NEAR(share(average - spread, average + spread), 0.683, 0.025);
+    EXPECT_NEAR(share(average - 2 * spread, average + 2 * spread), 0.954, 0.015);
+    EXPECT_NEAR(share(0, average), 0.5, 0.02);
+}
+
+}  // namespace
