@@ -482,9 +482,9 @@ Figure gait_figure(const Gait& gait, double phase) {
     Figure f;
     f.pelvis = {gait.sway * std::cos(middle),
                 gait.height + gait.bob * std::cos(2.0 * (angle - 2.0 * pi * gait.bob_phase)), 0.0};
-    f.hips = {0.5 * gait.lean, -gait.hip_turn * std::cos(angle), -gait.hip_drop * std::cos(middle)};
-    f.spine = {0.3 * gait.lean, gait.hip_turn * std::cos(angle), 0.7 * gait.hip_drop * std::cos(middle)};
-    f.chest = {0.2 * gait.lean, 1.1 * gait.hip_turn * std::cos(angle), 0.3 * gait.hip_drop * std::cos(middle)};
+    f.hips = {0.5 * gait.lean, -gait.hip_turn * std::cos(angle), gait.hip_drop * std::cos(middle)};
+    f.spine = {0.3 * gait.lean, gait.hip_turn * std::cos(angle), -0.7 * gait.hip_drop * std::cos(middle)};
+    f.chest = {0.2 * gait.lean, 1.1 * gait.hip_turn * std::cos(angle), -0.3 * gait.hip_drop * std::cos(middle)};
     f.neck = {-0.3 * gait.lean, -0.6 * gait.hip_turn * std::cos(angle), 0};
     f.head = {-0.5 * gait.lean, -0.5 * gait.hip_turn * std::cos(angle), 0};
     for (int side : {0, 1}) f.legs[side] = gait_leg(gait, phase + 0.5 * side);
