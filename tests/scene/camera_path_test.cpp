@@ -104,6 +104,43 @@ TEST(CameraPath, LooksSomewhereEvenWhereTargetAndPositionMeet) {
     EXPECT_GT(glm::distance(middle.position, middle.target), 0.5);
 }
 
+TEST(CameraPath, AnEvenMoveStaysEvenHoweverItsKeysAreSpaced) {
+    CameraPath path;
+    const glm::dvec3 start(3, 1, -2), velocity(2, 0.5, -1);
+    for (const double time : {0.0, 1.0, 1.5, 4.0, 4.2, 9.0})
+        path.keys.push_back({time, {start + time * velocity, glm::dvec3(100) + time * velocity, 0.8}});
+    for (double time = 0; time <= 9; time += 0.01) {
+        ASSERT_LT(glm::distance(path.at(time).position, start + time * velocity), 1e-9);
+        ASSERT_LT(glm::distance(path.at(time).target, glm::dvec3(100) + time * velocity), 1e-9);
+    }
+}
+
+TEST(CameraPath, PassesEachKeyWithTheVelocityBetweenItsNeighbours) {
+    constexpr double step = 1e-5;  // [s]
+    const CameraPath path = square_path();
+    for (std::size_t i = 0; i + 1 < path.keys.size(); ++i) {
+        const CameraKey& key = path.keys[i];
+        const bool first = i == 0;  // the last key is the first, a lap later
+        const CameraKey &before = path.keys[first ? path.keys.size() - 2 : i - 1], &after = path.keys[i + 1];
+        const double span = after.time - before.time + (first ? path.keys.back().time - key.time : 0);
+        const glm::dvec3 expected = (after.pose.position - before.pose.position) / span;
+        const glm::dvec3 measured =
+            (path.at(key.time + step).position - path.at(key.time - step).position) / (2 * step);
+        EXPECT_LT(glm::distance(measured, expected), 1e-3) << "key " << i;
+    }
+}
+
+TEST(CameraPath, StaysCloseToItsKeysBetweenThem) {
+    const CameraPath path = square_path();
+    for (double time = 1; time < 8; time += 0.01) {
+        const glm::dvec3 at = path.at(time).position;
+        for (const double across : {at.x, at.z}) {
+            ASSERT_GT(across, -2.5);
+            ASSERT_LT(across, 12.5);
+        }
+    }
+}
+
 // Largest change of velocity over a frame's time, anywhere on the path [m/s].
 double largest_jolt(const CameraPath& path, double begin, double end) {
     constexpr double step = 1e-3;  // [s]
@@ -264,6 +301,99 @@ TEST(Presets, StillHasMostOfAFullStadiumInView) {
     }
 }
 
+TEST(Presets, RemoteIsNoFurtherOffThanItMustBe) {
+    const tests::FakeCast cast = tests::sitters();
+    for (const std::int64_t people : sizes) {
+        const StadiumPlan plan = scene::plan_stadium(people);
+        const CameraPose pose = scene::preset_path("remote", plan).at(0);
+        // The outline of stands and of those who stand around them all but touches the picture's edge.
+        const glm::dvec3 forward = glm::normalize(pose.target - pose.position);
+        const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0, 1, 0))),
+                         up = glm::cross(right, forward);
+        const double slope = std::tan(pose.fov_y / 2);
+        double furthest = 0;  // in half heights or half widths from the picture's middle
+        for (int i = 0; i < 360; ++i) {
+            for (const auto& [offset, height] :
+                 {std::pair(plan.crowd_offset, 0.0f), {plan.outer_offset, plan.rim_height}}) {
+                const glm::vec2 xz = plan.oval.position(plan.oval.length(offset) * static_cast<float>(i) / 360, offset);
+                const glm::dvec3 to = glm::dvec3(xz.x, height, xz.y) - pose.position;
+                const double depth = glm::dot(to, forward);
+                furthest = std::max({furthest, std::abs(glm::dot(to, up)) / (slope * depth),
+                                     std::abs(glm::dot(to, right)) / (slope * depth * 16 / 9)});
+            }
+        }
+        EXPECT_LE(furthest, 1.0) << people << " people";
+        EXPECT_GE(furthest, 0.93) << people << " people";
+        EXPECT_LT(glm::length(pose.target), 1) << "looks at the centre spot";
+    }
+}
+
+TEST(Presets, SeeAsWideAsCamerasDo) {
+    for (const std::int64_t people : sizes) {
+        for (const CameraPose& pose : all_poses(scene::plan_stadium(people))) {
+            ASSERT_GT(pose.fov_y, 35 * degree);
+            ASSERT_LT(pose.fov_y, 65 * degree);
+        }
+    }
+}
+
+TEST(Presets, StillIsInAnAisleHighUpInACorner) {
+    for (const std::int64_t people : sizes) {
+        const StadiumPlan plan = scene::plan_stadium(people);
+        const CameraPose pose = scene::preset_path("still", plan).at(0);
+        EXPECT_LT(pose.position.x, -0.8 * static_cast<double>(plan.oval.half_straight)) << "beside the pitch";
+        EXPECT_GT(pose.position.z, 0.5 * static_cast<double>(plan.oval.radius)) << "behind the goal";
+        const double least = plan.rows[plan.rows.size() * 3 / 4].floor;
+        EXPECT_GT(pose.position.y, least + 1.0);
+        EXPECT_LT(pose.position.y, plan.rows.back().floor + 2.5);
+        for (const scene::Seat& seat : plan.seats) {
+            const glm::dvec2 away(pose.position.x - static_cast<double>(seat.position.x),
+                                  pose.position.z - static_cast<double>(seat.position.z));
+            ASSERT_GT(glm::length(away), 0.7) << "on somebody's seat";
+        }
+        // Towards the pitch, and down.
+        const glm::dvec3 ahead = glm::normalize(pose.target - pose.position);
+        EXPECT_GT(glm::dot(ahead, glm::normalize(-pose.position)), 0.9);
+        EXPECT_LT(ahead.y, -0.05);
+    }
+}
+
+// Spectators in a picture of 16:9, up to some distance.
+int spectators_in_view(const CameraPose& pose, const Crowd& crowd, double up_to) {
+    const glm::dvec3 forward = glm::normalize(pose.target - pose.position);
+    const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0, 1, 0))), up = glm::cross(right, forward);
+    const double slope = std::tan(pose.fov_y / 2);
+    int seen = 0;
+    for (std::size_t i = 0; i < crowd.size(); ++i) {
+        if (crowd.role[i] != scene::Role::spectator) continue;
+        const glm::dvec3 to = glm::dvec3(crowd.position[i]) + glm::dvec3(0, 1, 0) - pose.position;
+        const double depth = glm::dot(to, forward);
+        seen += depth > 0 && glm::length(to) < up_to && std::abs(glm::dot(to, up)) < slope * depth &&
+                std::abs(glm::dot(to, right)) < slope * depth * 16 / 9;
+    }
+    return seen;
+}
+
+TEST(Presets, CloseAndMediumLookAtSpectators) {
+    const tests::FakeCast cast = tests::sitters();
+    for (const std::int64_t people : {std::int64_t{100}, std::int64_t{20000}, std::int64_t{200000}}) {
+        const StadiumPlan plan = scene::plan_stadium(people);
+        const Crowd crowd = scene::populate(plan, people, cast.members, cast.poses, 1);
+        const CameraPose close = scene::preset_path("close", plan).at(0),
+                         medium = scene::preset_path("medium", plan).at(0);
+        EXPECT_GT(spectators_in_view(close, crowd, 15), 20) << people << " people";
+        EXPECT_GT(spectators_in_view(medium, crowd, 80), people == 100 ? 80 : 400) << people << " people";
+        const double offset = plan.oval.offset_of({medium.position.x, medium.position.z});
+        EXPECT_LT(offset, -5) << "medium is on the infield";
+        EXPECT_LT(medium.position.y, 6);
+        // Both look along the stand that a small crowd sits in, up into it.
+        for (const CameraPose& pose : {close, medium}) {
+            EXPECT_GT(pose.target.z, pose.position.z + 1);
+            EXPECT_GT(pose.target.z, static_cast<double>(plan.oval.radius + plan.stand_offset));
+        }
+    }
+}
+
 double nearest_spectator(const CameraPose& pose, const Crowd& crowd) {
     constexpr double face_height = 1.2;  // [m] seated
     double nearest = 1e9;
@@ -286,6 +416,45 @@ TEST(Presets, CloseAndMediumAreAsNearAsTheyShould) {
         const double medium = nearest_spectator(scene::preset_path("medium", plan).at(0), crowd);
         EXPECT_GT(medium, 20.0);
         EXPECT_LT(medium, 50.0);
+    }
+}
+
+TEST(Presets, RoamGoesCloseMediumAndRemote) {
+    const tests::FakeCast cast = tests::sitters();
+    for (const std::int64_t people : {std::int64_t{20000}, std::int64_t{200000}}) {
+        const StadiumPlan plan = scene::plan_stadium(people);
+        const Crowd crowd = scene::populate(plan, people, cast.members, cast.poses, 1);
+        const CameraPath roam = scene::preset_path("roam", plan);
+        int close = 0, medium = 0;
+        for (int second = 0; second < 60; ++second) {
+            const double nearest = nearest_spectator(roam.at(second), crowd);
+            close += nearest < 6;
+            medium += nearest > 15 && nearest < 50;
+        }
+        EXPECT_GE(close, 8) << "seconds along the front row";
+        EXPECT_GE(medium, 8) << "seconds over the infield";
+        EXPECT_EQ(share_in_view(roam.at(0), crowd, cast.members[0]), 1.0);
+        EXPECT_EQ(difference(roam.at(0), scene::preset_path("remote", plan).at(0)), 0);
+    }
+}
+
+TEST(Presets, RoamLooksIntoTheStadiumAndNeitherRacesNorSpins) {
+    constexpr double frame = 1.0 / 60;
+    for (const std::int64_t people : sizes) {
+        const StadiumPlan plan = scene::plan_stadium(people);
+        const CameraPath roam = scene::preset_path("roam", plan);
+        const double size = glm::length(roam.at(0).position);
+        for (double time = 0; time < 60; time += 0.05) {
+            const CameraPose here = roam.at(time), next = roam.at(time + frame);
+            const glm::dvec3 ahead = glm::normalize(here.target - here.position);
+            // What it looks at is pitch or people.
+            ASSERT_LT(plan.oval.offset_of({here.target.x, here.target.z}), plan.outer_offset);
+            ASSERT_LT(ahead.y, 0.3);
+            ASSERT_LT(glm::distance(here.position, next.position) / frame, 15 + 0.4 * size) << "m/s at " << time;
+            const double turned =
+                std::acos(std::min(1.0, glm::dot(ahead, glm::normalize(next.target - next.position))));
+            ASSERT_LT(turned / frame, 60 * degree) << "a second, at " << time;
+        }
     }
 }
 
@@ -387,6 +556,90 @@ TEST_F(CameraFile, RefusesBadOnesInOneLineThatNamesFileAndPlace) {
         EXPECT_NE(said.find("expected"), std::string::npos) << said;
         EXPECT_LT(said.size(), path.string().size() + 300) << said;
     }
+}
+
+TEST_F(CameraFile, TakesEachNumberUpToItsLimitAndNoFurther) {
+    const auto accepts = [&](const std::string& list) {
+        write(keys(list));
+        return complaint().empty();
+    };
+    const std::string near = "[0,1,0]", there = "[1,1,1]";
+    EXPECT_TRUE(accepts(key("0", near, there, "50")));
+    EXPECT_TRUE(accepts(key("1e6", near, there, "50")));
+    EXPECT_FALSE(accepts(key("1000001", near, there, "50")));
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const std::string sign : {"", "-"}) {
+            const auto at = [&](const std::string& value) {
+                std::string text = "[";
+                for (int i = 0; i < 3; ++i) text += (i == axis ? sign + value : "2") + std::string(i < 2 ? "," : "]");
+                return text;
+            };
+            EXPECT_TRUE(accepts(key("0", at("100000"), there, "50")));
+            EXPECT_FALSE(accepts(key("0", at("100001"), there, "50")));
+            EXPECT_FALSE(accepts(key("0", near, at("100001"), "50")));
+        }
+    }
+    EXPECT_TRUE(accepts(key("0", near, there, "1.01")));
+    EXPECT_TRUE(accepts(key("0", near, there, "169.9")));
+    EXPECT_FALSE(accepts(key("0", near, there, "170.1")));
+    EXPECT_TRUE(accepts(key("0", "[0,0,0]", "[0,0,0.0011]", "50")));
+    EXPECT_FALSE(accepts(key("0", "[0,0,0]", "[0,0,0.0009]", "50")));
+    EXPECT_TRUE(accepts(key("0", near, there, "50") + "," + key("1e-3", near, there, "50")));
+    EXPECT_FALSE(accepts(key("1", near, there, "50") + "," + key("0.5", near, there, "50")));
+}
+
+TEST_F(CameraFile, TakesTenThousandKeysAndFourMebibytes) {
+    const auto many = [](int count) {
+        std::string list;
+        for (int i = 0; i < count; ++i) {
+            list += (i > 0 ? "," : "") + key(std::to_string(i), "[0,1,0]", "[1,1,1]", "50");
+        }
+        return keys(list);
+    };
+    write(many(10'000));
+    EXPECT_EQ(scene::load_camera_path(path).keys.size(), 10'000u);
+    write(many(10'001));
+    EXPECT_NE(complaint().find("10001 keys"), std::string::npos) << complaint();
+    std::string padded = many(1);
+    padded.resize(4 << 20, ' ');
+    write(padded);
+    EXPECT_EQ(scene::load_camera_path(path).keys.size(), 1u);
+}
+
+TEST_F(CameraFile, RefusesASeamThatWouldJump) {
+    const auto closed = [&](const std::string& last) {
+        write(R"({"closed":true,"keys":[)" + key("0", "[0,1,0]", "[1,1,1]", "50") + "," + last + "]}");
+        return complaint();
+    };
+    EXPECT_EQ(closed(key("1", "[0,1,0]", "[1,1,1]", "50")), "");
+    for (const std::string& last : {key("1", "[0,1,0.5]", "[1,1,1]", "50"), key("1", "[0,1,0]", "[1,1,1.5]", "50"),
+                                    key("1", "[0,1,0]", "[1,1,1]", "51")}) {
+        EXPECT_NE(closed(last).find("unlike the first"), std::string::npos) << last;
+    }
+}
+
+TEST_F(CameraFile, NamesMissingAndMisspeltMembersOfAKey) {
+    const std::string members[] = {R"("time_s":0)", R"("position":[0,1,0])", R"("target":[1,1,1])", R"("fov_deg":50)"};
+    const std::string names[] = {"time_s", "position", "target", "fov_deg"};
+    for (std::size_t missing = 0; missing < 4; ++missing) {
+        std::string text;
+        for (std::size_t i = 0; i < 4; ++i)
+            if (i != missing) text += (text.empty() ? "" : ",") + members[i];
+        write(keys("{" + text + "}"));
+        EXPECT_NE(complaint().find("keys[0]: found no member '" + names[missing] + "'"), std::string::npos)
+            << complaint();
+    }
+    write(keys("{" + members[0] + "," + members[1] + "," + members[2] + "," + members[3] + R"(,"fov":50})"));
+    EXPECT_NE(complaint().find("found the member \"fov\", expected time_s, position, target, fov_deg, cut"),
+              std::string::npos)
+        << complaint();
+}
+
+TEST_F(CameraFile, QuotesWhatIsWrongInShort) {
+    write(keys(key("\"" + std::string(500, 'x') + "\"", "[0,1,0]", "[1,1,1]", "50")));
+    EXPECT_NE(complaint().find("xxx..."), std::string::npos);
+    EXPECT_EQ(complaint().find(std::string(50, 'x')), std::string::npos);
+    EXPECT_NE(complaint().find(std::string(30, 'x')), std::string::npos);
 }
 
 TEST_F(CameraFile, RefusesWhatIsMissingAFolderOrTooLarge) {
