@@ -136,6 +136,25 @@ TEST(Acts, AQuarterOfThoseWhoKeepTheirActIsExcitedWhateverTheirPhase) {
     EXPECT_LT(tests::unevenness({counts[cheer], counts[clap], counts[wave]}), tests::chance);
 }
 
+TEST(Acts, AreKeptForEverIfAnyOneTakesLongerThanTheRest) {
+    for (std::size_t longer = sit; longer <= wave; ++longer) {
+        std::vector<int> ticks{240, 240, 240, 240, 240, 62, 44};
+        ticks[longer] = 300;
+        FakeCast cast = fans();
+        cast.poses = {tests::fake_poses(ticks)};
+        const Watched crowd(cast, 9000);
+        for (std::size_t i = 0; i < crowd.crowd.size(); i += 101) {
+            const Action first = crowd.at(i, 0);
+            const std::int64_t length = ticks[first.clip];
+            for (std::int64_t tick = 1; tick < 20 * clip_ticks; tick += 31) {
+                const Action action = crowd.at(i, tick);
+                ASSERT_EQ(action.clip, first.clip);
+                ASSERT_EQ(action.clip_tick, (first.clip_tick + tick) % length);
+            }
+        }
+    }
+}
+
 TEST(Acts, GoOnAcrossTheStartOfTime) {
     for (std::size_t i = 0; i < stands().crowd.size(); i += 97) {
         if (stands().crowd.role[i] != Role::spectator) continue;

@@ -382,6 +382,7 @@ TEST(Presets, CloseAndMediumLookAtSpectators) {
         const CameraPose close = scene::preset_path("close", plan).at(0),
                          medium = scene::preset_path("medium", plan).at(0);
         EXPECT_GT(spectators_in_view(close, crowd, 15), 20) << people << " people";
+        EXPECT_LT(close.position.y, plan.rows.front().floor + 2.5) << "not from above";
         EXPECT_GT(spectators_in_view(medium, crowd, 80), people == 100 ? 80 : 400) << people << " people";
         const double offset = plan.oval.offset_of({medium.position.x, medium.position.z});
         EXPECT_LT(offset, -5) << "medium is on the infield";

@@ -361,14 +361,16 @@ std::vector<Window> infield_windows(int places) {
     return result;
 }
 
-// Correlation of the shares of windows `dx`, `dz` apart.
-double alike(const std::vector<Window>& windows, int dx, int dz) {
+// Correlation of the shares of windows `dx`, `dz` apart, of those that `asked` picks.
+double alike(
+    const std::vector<Window>& windows, int dx, int dz,
+    const std::function<bool(const Window&)>& asked = [](const Window&) { return true; }) {
     std::map<std::pair<int, int>, double> shares;
     for (const Window& window : windows) shares[{window.x, window.z}] = window.share;
     std::vector<double> here, there;
     for (const Window& window : windows) {
         const auto found = shares.find({window.x + dx, window.z + dz});
-        if (found == shares.end()) continue;
+        if (found == shares.end() || !asked(window)) continue;
         here.push_back(window.share);
         there.push_back(found->second);
     }
@@ -391,6 +393,9 @@ TEST(Standing, PeopleClusterOverSomeMetres) {
     // Next to a cluster is the rest of it, whichever way; 27 m on is another.
     EXPECT_GT(alike(windows, 1, 0), 0.2);
     EXPECT_GT(alike(windows, 0, 1), 0.2);
+    // ... smoothly, also where the noise's cells of 9 m meet.
+    EXPECT_GT(alike(windows, 1, 0, [](const Window& window) { return window.x % 2 != 0; }), 0.35);
+    EXPECT_GT(alike(windows, 0, 1, [](const Window& window) { return window.z % 2 != 0; }), 0.35);
     EXPECT_LT(std::abs(alike(windows, 6, 0)), 0.2);
     EXPECT_LT(std::abs(alike(windows, 0, 6)), 0.2);
 }
@@ -632,6 +637,14 @@ TEST(Blocks, BoxesOfAthletesHoldWholeLapsAndLittleMore) {
     EXPECT_EQ(blocks, 2);
 }
 
+bool is_red(glm::u8vec4 shirt) {
+    return shirt.x > 170 && shirt.y < 80 && shirt.z < 80;
+}
+
+bool is_yellow(glm::u8vec4 shirt) {
+    return shirt.x > 220 && shirt.y > 180 && shirt.z < 110;
+}
+
 TEST(Fans, FillTheirEnds) {
     const Stands stands(1);
     int red = 0, home_end = 0, yellow = 0, away_end = 0, yellow_at_home = 0;
@@ -639,20 +652,43 @@ TEST(Fans, FillTheirEnds) {
         if (stands.crowd.role[i] != Role::spectator) continue;
         const glm::vec3 at = stands.crowd.position[i];
         const glm::u8vec4 shirt = stands.crowd.palette[i].shirt;
-        const bool is_red = shirt.x > 170 && shirt.y < 80 && shirt.z < 80;
-        const bool is_yellow = shirt.x > 220 && shirt.y > 180 && shirt.z < 110;
         if (at.x > stands.plan.oval.half_straight) {
             ++home_end;
-            red += is_red;
-            yellow_at_home += is_yellow;
+            red += is_red(shirt);
+            yellow_at_home += is_yellow(shirt);
         } else if (at.x < -stands.plan.oval.half_straight && at.z < 0) {
             ++away_end;
-            yellow += is_yellow;
+            yellow += is_yellow(shirt);
         }
     }
     EXPECT_GT(red, home_end / 2);
     EXPECT_LT(yellow_at_home, home_end / 20);
     EXPECT_GT(yellow, away_end / 2);
+}
+
+TEST(Fans, MixOnTheGroundAndOnTheTrack) {
+    // Three in four of a team's shirts are red or yellow, and one in sixteen of all others is yellow too.
+    constexpr double worn = 0.75, others = 1.0 / 16;
+    double red = 0, yellow = 0;
+    for (const std::size_t i : grounds().people) {
+        red += is_red(grounds().crowd.palette[i].shirt);
+        yellow += is_yellow(grounds().crowd.palette[i].shirt);
+    }
+    const double standing = static_cast<double>(grounds().people.size());
+    EXPECT_NEAR(red / standing, worn * 0.3, 0.01);
+    EXPECT_NEAR(yellow / standing, worn * 0.1 + others * 0.6, 0.01);
+    const FakeCast cast = tests::sitters();
+    double athletes = 0;
+    red = yellow = 0;
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        const Crowd crowd = tests::populate(cast, 20000, seed);
+        for (std::size_t i = 0; i < 200; ++i, ++athletes) {
+            red += is_red(crowd.palette[i].shirt);
+            yellow += is_yellow(crowd.palette[i].shirt);
+        }
+    }
+    EXPECT_NEAR(red / athletes, worn * 0.4, 0.04) << "the home team's";
+    EXPECT_NEAR(yellow / athletes, worn * 0.4 + others * 0.2, 0.04) << "the guests'";
 }
 
 }  // namespace

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace {
 
@@ -88,6 +90,67 @@ TEST(Oval, RunsCounterClockwiseSeenFromAbove) {
         area += 0.5 * (static_cast<double>(a.x) * -b.y + static_cast<double>(a.y) * b.x);
     }
     EXPECT_NEAR(area, 2.0 * 84.39 * 36.5 + M_PI * 36.5 * 36.5, 1.0);
+}
+
+TEST(Oval, BeginsWithTheStraightAtPositiveZ) {
+    constexpr float tolerance = 1e-3f;  // [m]
+    const Oval oval;
+    for (const float offset : offsets) {
+        const float side = oval.radius + offset, straight = 2 * oval.half_straight;
+        const float half_lap = oval.length(offset) / 2, bend = half_lap - straight;
+        const std::pair<float, glm::vec2> stations[] = {{0, {-oval.half_straight, side}},
+                                                        {oval.half_straight, {0, side}},
+                                                        {straight, {oval.half_straight, side}},
+                                                        {straight + bend / 2, {oval.half_straight + side, 0}},
+                                                        {half_lap, {oval.half_straight, -side}},
+                                                        {half_lap + oval.half_straight, {0, -side}},
+                                                        {half_lap + straight, {-oval.half_straight, -side}},
+                                                        {2 * half_lap - bend / 2, {-oval.half_straight - side, 0}}};
+        for (const auto& [arc, at] : stations) {
+            EXPECT_LT(glm::distance(oval.position(arc, offset), at), tolerance) << arc << " at offset " << offset;
+        }
+    }
+}
+
+TEST(Oval, EveryMetreOfArcIsAMetreOfWay) {
+    constexpr float step = 0.25f, tolerance = 2e-3f;  // [m] chords, and floats of a kilometre
+    const Oval oval;
+    for (const float offset : offsets) {
+        for (int i = 0; i < samples; ++i) {
+            const float arc = arc_at(oval, i, offset);
+            const glm::vec2 before = oval.position(arc - step, offset), after = oval.position(arc + step, offset);
+            EXPECT_NEAR(glm::distance(before, after), 2 * step, tolerance) << arc << " at offset " << offset;
+        }
+    }
+}
+
+// The line itself, as points a few centimetres apart.
+float distance_by_brute_force(const Oval& oval, glm::vec2 from) {
+    constexpr int points = 16000;
+    float least = 1e9f;
+    for (int i = 0; i < points; ++i) {
+        const double turn = 2 * M_PI * i / points;
+        // The nearest point is on the half circle or straight of its own side.
+        const glm::vec2 on_circle(oval.radius * std::cos(turn), oval.radius * std::sin(turn));
+        const glm::vec2 bend = on_circle + glm::vec2(on_circle.x > 0 ? oval.half_straight : -oval.half_straight, 0);
+        const float along = oval.half_straight * (2 * static_cast<float>(i) / points - 1);
+        least = std::min({least, glm::distance(from, bend), glm::distance(from, glm::vec2(along, oval.radius)),
+                          glm::distance(from, glm::vec2(along, -oval.radius))});
+    }
+    return least;
+}
+
+TEST(Oval, OffsetIsTheSignedDistanceFromTheInnerLine) {
+    constexpr float tolerance = 1e-3f;  // [m] between two points of the line
+    const Oval oval;
+    for (float x = -95; x <= 95; x += 19) {
+        for (float z = -55; z <= 55; z += 11) {
+            const float offset = oval.offset_of({x, z}), distance = distance_by_brute_force(oval, {x, z});
+            EXPECT_NEAR(std::abs(offset), distance, tolerance) << x << ' ' << z;
+            const float beyond = std::max(std::abs(x) - oval.half_straight, 0.0f);
+            EXPECT_EQ(offset > 0, beyond * beyond + z * z > oval.radius * oval.radius) << x << ' ' << z;
+        }
+    }
 }
 
 TEST(Oval, ArcWrapsBothWays) {
