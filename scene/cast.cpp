@@ -25,8 +25,8 @@ std::optional<int> find_exactly(const motion::Character& character, std::string_
     return std::nullopt;
 }
 
+// The shortest name that contains `word`: just the word, if there is one.
 std::optional<int> find(const motion::Character& character, std::string_view word) {
-    if (const auto exact = find_exactly(character, word)) return exact;
     std::optional<int> best;
     for (std::size_t i = 0; i < character.clips.size(); ++i) {
         const std::string& name = character.clips[i].name;
