@@ -49,6 +49,65 @@ TEST(Cast, FindsClipsInAnyCaseAndWithPrefixes) {
     EXPECT_EQ(calm_clip(horse, Role::runner), "AnimalArmature|WALK");
 }
 
+// The names of the clips that spectators play while excited, in order.
+std::vector<std::string> excited_clips(const motion::Character& character) {
+    const scene::Casting casting = scene::cast(character);
+    std::vector<std::string> names;
+    for (const std::uint8_t baked : casting.member.acts[static_cast<int>(Role::spectator)].excited)
+        names.push_back(character.clips.at(casting.clips.at(baked)).name);
+    return names;
+}
+
+TEST(Cast, WalkersWalkAndRunnersRunIfTheyCanElseTheOtherElseTheyFly) {
+    const auto all = with_clips({"Fly", "Run", "Walk"});
+    EXPECT_EQ(calm_clip(all, Role::walker), "Walk");
+    EXPECT_EQ(calm_clip(all, Role::runner), "Run");
+    EXPECT_EQ(calm_clip(all, Role::spectator), "Walk");
+    EXPECT_EQ(calm_clip(all, Role::standing), "Walk");
+    const auto no_walk = with_clips({"Idle", "Fly", "Run"});
+    for (const Role role : {Role::walker, Role::runner}) EXPECT_EQ(calm_clip(no_walk, role), "Run");
+    const auto bird = with_clips({"Idle", "Fly"});
+    for (const Role role : {Role::walker, Role::runner}) EXPECT_EQ(calm_clip(bird, role), "Fly");
+}
+
+TEST(Cast, SittersStandElseIdleElseWalkWhereThereIsNoSeat) {
+    EXPECT_EQ(calm_clip(with_clips({"walk", "idle", "stand", "sit"}), Role::standing), "stand");
+    EXPECT_EQ(calm_clip(with_clips({"walk", "idle", "sit"}), Role::standing), "idle");
+    EXPECT_EQ(calm_clip(with_clips({"wait", "walk", "sit"}), Role::standing), "walk");
+    EXPECT_EQ(calm_clip(with_clips({"walk", "idle", "stand", "Sit"}), Role::spectator), "Sit");
+}
+
+TEST(Cast, SpectatorsCheerClapAndWaveInThatOrderAsFarAsTheyCan) {
+    using Names = std::vector<std::string>;
+    EXPECT_EQ(excited_clips(with_clips({"Wave", "Walk", "Clap", "Cheer"})), (Names{"Cheer", "Clap", "Wave"}));
+    EXPECT_EQ(excited_clips(with_clips({"Robot_Wave", "Robot_Walking"})), (Names{"Robot_Wave"}));
+    EXPECT_EQ(excited_clips(with_clips({"sit", "walk"})), Names{});
+}
+
+TEST(Cast, PlaysTheShortestNameThatFits) {
+    EXPECT_EQ(calm_clip(with_clips({"WalkJump", "Walking", "WalkHolding"}), Role::walker), "Walking");
+    EXPECT_EQ(calm_clip(with_clips({"Catwalk", "Walk", "walk"}), Role::walker), "Walk");
+}
+
+TEST(Cast, BakesFirstWhatStandsUprightSinceHeightsAreMeasuredInIt) {
+    for (const motion::Character& character :
+         {scene::make_person(), with_clips({"sit", "cheer", "run", "walk", "stand"}), with_clips({"Run", "Walk"})}) {
+        const scene::Casting casting = scene::cast(character);
+        EXPECT_EQ(casting.member.acts[static_cast<int>(Role::standing)].calm.at(0), 0);
+    }
+}
+
+TEST(Cast, HasItsCharactersNameAndThePersonsSpeeds) {
+    motion::Character character = with_clips({"walk"});
+    character.name = "fox";
+    const scene::CastMember member = scene::cast(character).member;
+    EXPECT_EQ(member.name, "fox");
+    EXPECT_EQ(member.gait_speed[static_cast<int>(Role::walker)], scene::walk_speed);
+    EXPECT_EQ(member.gait_speed[static_cast<int>(Role::runner)], scene::run_speed);
+    EXPECT_EQ(member.gait_speed[static_cast<int>(Role::spectator)], 0);
+    EXPECT_EQ(member.gait_speed[static_cast<int>(Role::standing)], 0);
+}
+
 TEST(Cast, PlaysTheFirstClipWhereNoNameFits) {
     const auto unnamed = with_clips({"", "Take 001"});
     for (const Role role : {Role::spectator, Role::standing, Role::walker, Role::runner})
@@ -87,6 +146,34 @@ TEST(Room, TerracesAreAsWideAndDeepAsTheirCast) {
     }
     for (std::size_t row = 1; row < plan.rows.size(); ++row)
         EXPECT_GT(plan.rows[row].offset - plan.rows[row - 1].offset, room.depth - 1e-3f);
+}
+
+TEST(Room, IsWhatTheWidestAndTheDeepestNeedWhileTheyWatch) {
+    constexpr float average = 1.7f;  // [m]
+    tests::FakeCast cast = tests::sitters();
+    for (int i = 0; i < 3; ++i) tests::add_stander(cast);
+    const motion::Bounds slim{{-0.2f, 0, -0.2f}, {0.2f, 2, 0.2f}}, wide{{-0.6f, 0, -0.3f}, {0.6f, 2, 0.3f}},
+        deep{{-0.3f, 0, -0.9f}, {0.3f, 2, 0.9f}}, huge{{-9, 0, -9}, {9, 2, 9}};
+    for (std::size_t i = 1; i < cast.poses.size(); ++i) {
+        cast.poses[i].box = huge;  // as it is in clips that nobody watches in
+        cast.poses[i].rest_height = 2;
+        cast.poses[i].clip_boxes = {i == 1 ? wide : i == 2 ? deep : slim, huge};
+    }
+    const scene::Room room = scene::room_for(cast.members, cast.poses);
+    EXPECT_FALSE(room.seats);
+    EXPECT_NEAR(room.width, 1.2f * average / 2, 1e-5f);
+    EXPECT_NEAR(room.depth, 1.8f * average / 2, 1e-5f);
+}
+
+TEST(Room, IsNeverLessThanASeatNorMoreThanATerraceMayBe) {
+    tests::FakeCast cast;
+    tests::add_stander(cast);
+    cast.poses[0].clip_boxes[0] = {{-0.1f, 0, -0.1f}, {0.1f, 2, 0.1f}};
+    EXPECT_EQ(scene::room_for(cast.members, cast.poses).width, scene::Room{}.width);
+    EXPECT_EQ(scene::room_for(cast.members, cast.poses).depth, scene::Room{}.depth);
+    cast.poses[0].clip_boxes[0] = {{-9, 0, -9}, {9, 2, 9}};
+    EXPECT_NEAR(scene::room_for(cast.members, cast.poses).width, 1.5f, 1e-6f);
+    EXPECT_NEAR(scene::room_for(cast.members, cast.poses).depth, 2.4f, 1e-6f);
 }
 
 TEST(Room, GiantsDoNotBreakTheStadium) {

@@ -593,7 +593,7 @@ motion::Bounds touched(const Crowd& crowd, const FakeCast& cast, std::size_t per
 }
 
 TEST(Blocks, BoxesOfThoseWhoStayFitWithinTwoCentimetres) {
-    constexpr float loose = 0.02f;  // [m]
+    constexpr float loose = 0.02f, rounding = 0.005f;  // [m] room for a shader that turns and scales in another order
     const FakeCast cast = tests::sitters_and_standers();
     const Crowd crowd = tests::populate(cast, 100'000);
     for (const scene::CrowdBlock& block : crowd.blocks) {
@@ -604,8 +604,8 @@ TEST(Blocks, BoxesOfThoseWhoStayFitWithinTwoCentimetres) {
             all = {glm::min(all.min, one.min), glm::max(all.max, one.max)};
         }
         for (int axis = 0; axis < 3; ++axis) {
-            ASSERT_LE(block.box.min[axis], all.min[axis]);
-            ASSERT_GE(block.box.max[axis], all.max[axis]);
+            ASSERT_LE(block.box.min[axis], all.min[axis] - rounding);
+            ASSERT_GE(block.box.max[axis], all.max[axis] + rounding);
             ASSERT_GE(block.box.min[axis], all.min[axis] - loose);
             ASSERT_LE(block.box.max[axis], all.max[axis] + loose);
         }
