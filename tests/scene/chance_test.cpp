@@ -7,6 +7,8 @@
 #include <map>
 #include <numbers>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "scene/crowd.h"
 #include "scene/random.h"
@@ -122,8 +124,10 @@ const Grounds& grounds() {
 }
 
 void expect_independent(const Traits& traits) {
-    for (auto a = traits.begin(); a != traits.end(); ++a) {
-        for (auto b = std::next(a); b != traits.end(); ++b) {
+    std::map<std::string, std::vector<int>> classes;
+    for (const auto& [name, values] : traits) classes[name] = tests::quarters(values);
+    for (auto a = classes.begin(); a != classes.end(); ++a) {
+        for (auto b = std::next(a); b != classes.end(); ++b) {
             EXPECT_LT(tests::dependence(a->second, b->second), tests::chance) << a->first << " and " << b->first;
         }
     }

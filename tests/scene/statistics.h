@@ -42,11 +42,10 @@ inline std::vector<int> quarters(const std::vector<double>& values) {
     return result;
 }
 
-// By how much the quarters of `a` and of `b` have to do with each other, however crooked the relation.
-inline double dependence(const std::vector<double>& a, const std::vector<double>& b) {
-    const std::vector<int> in_a = quarters(a), in_b = quarters(b);
+// By how much the quarters that one number and another are in have to do with each other, however crooked the relation.
+inline double dependence(const std::vector<int>& in_a, const std::vector<int>& in_b) {
     double table[4][4] = {}, of_a[4] = {}, of_b[4] = {};
-    for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t i = 0; i < in_a.size(); ++i) {
         ++table[in_a[i]][in_b[i]];
         ++of_a[in_a[i]];
         ++of_b[in_b[i]];
@@ -57,11 +56,15 @@ inline double dependence(const std::vector<double>& a, const std::vector<double>
         classes_a += of_a[i] > 0;
         classes_b += of_b[i] > 0;
         for (int j = 0; j < 4; ++j) {
-            const double expected = of_a[i] * of_b[j] / static_cast<double>(a.size());
+            const double expected = of_a[i] * of_b[j] / static_cast<double>(in_a.size());
             if (expected > 0) chi_square += (table[i][j] - expected) * (table[i][j] - expected) / expected;
         }
     }
     return deviations(chi_square, std::max(1, (classes_a - 1) * (classes_b - 1)));
+}
+
+inline double dependence(const std::vector<double>& a, const std::vector<double>& b) {
+    return dependence(quarters(a), quarters(b));
 }
 
 inline double mean(const std::vector<double>& values) {
