@@ -14,7 +14,7 @@ struct OctahedralNormal {
 // `normal` need not be unit; what has no direction (zero, NaN, infinite) is +z.
 OctahedralNormal pack_normal(const glm::vec3& normal);
 
-// Unit; within 0.013 rad of what was packed.
+// Unit; within 0.017 rad of what was packed.
 glm::vec3 unpack_normal(OctahedralNormal normal);
 
 }  // namespace motion

@@ -5,10 +5,13 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
+#include <utility>
 
+#include "motion/octahedral.h"
 #include "motion/schedule.h"
-#include "tests/motion/tentacle.h"
+#include "tests/motion/rig.h"
 
 namespace {
 
@@ -236,12 +239,200 @@ TEST(PoseTable, AreaIsTheLargestOverThePoses) {
     EXPECT_NEAR(table.area, largest, 1e-5 * largest);
 }
 
+// Three clips of different lengths, asked for out of order.
+motion::Character three_clips() {
+    motion::Character character = tests::make_rig(5, 3);
+    const double lengths[] = {0.61, 1.0 / 60, 1.3};  // [s] neither is whole at every rate
+    for (std::size_t i = 0; i < 3; ++i) character.clips[i].duration = lengths[i];
+    return character;
+}
+
+const std::vector<int> out_of_order{2, 0, 1};
+
+// Which tick of its own a person is at, seen from anywhere in time.
+std::int64_t wrapped(std::int64_t tick, std::int64_t period) {
+    while (tick < 0) tick += period;
+    while (tick >= period) tick -= period;
+    return tick;
+}
+
+TEST(PoseTable, EveryTickFindsThePoseOfItsTimeAtAnySpacing) {
+    const motion::Character character = three_clips();
+    const std::vector<motion::SurfacePoint> points = scatter(character.mesh, 40);
+    const std::size_t bytes_per_pose = (character.mesh.vertex_count() + points.size()) * sizeof(motion::PosedVertex);
+    for (const std::size_t most : {1000u, 70u, 31u, 9u, 3u}) {
+        const motion::PoseTable table = motion::bake_poses(character, out_of_order, points, most * bytes_per_pose);
+        ASSERT_LE(static_cast<std::size_t>(table.pose_count), most);
+        const glm::vec3 step = 1.1f * step_of(table);
+        for (int clip = 0; clip < 3; ++clip) {
+            const motion::ClipPoses& poses = table.clips[static_cast<std::size_t>(clip)];
+            for (std::int64_t tick = -2 * poses.ticks() - 1; tick <= 2 * poses.ticks(); ++tick) {
+                SCOPED_TRACE(testing::Message() << most << " poses, clip " << clip << ", tick " << tick);
+                const std::int64_t held = wrapped(tick, poses.ticks()) / poses.ticks_per_pose * poses.ticks_per_pose;
+                const Surface expected = skinned(character, out_of_order[static_cast<std::size_t>(clip)],
+                                                 static_cast<double>(held) / motion::ticks_per_second);
+                const auto pose = static_cast<std::size_t>(table.pose_at(clip, tick));
+                for (std::size_t i = 0; i < points.size(); ++i) {
+                    const std::uint32_t* corner = &character.mesh.indices[3 * points[i].triangle];
+                    const float u = points[i].u, v = points[i].v;
+                    const auto blended = [&](const std::vector<glm::vec3>& of) {
+                        return of[corner[0]] + u * (of[corner[1]] - of[corner[0]]) +
+                               v * (of[corner[2]] - of[corner[0]]);
+                    };
+                    const motion::PosedVertex& got = table.points[pose * points.size() + i];
+                    const glm::vec3 off =
+                        glm::abs(motion::unpack_position(got, table.box) - blended(expected.positions));
+                    ASSERT_TRUE(glm::all(glm::lessThanEqual(off, step)));
+                    const glm::vec3 normal = blended(expected.normals);
+                    if (glm::length(normal) < 0.1f) continue;  // the corners' cancel out
+                    ASSERT_GT(glm::dot(motion::unpack_normal(got), glm::normalize(normal)), normal_cosine);
+                }
+            }
+        }
+    }
+}
+
+TEST(PoseTable, AClipsPeriodIsItsDurationToHalfAPose) {
+    const motion::Character character = three_clips();
+    const std::size_t bytes_per_pose = character.mesh.vertex_count() * sizeof(motion::PosedVertex);
+    for (const std::size_t most : {1000u, 70u, 31u, 9u}) {
+        const motion::PoseTable table = motion::bake_poses(character, out_of_order, {}, most * bytes_per_pose);
+        int next = 0;
+        for (std::size_t slot = 0; slot < 3; ++slot) {
+            const motion::ClipPoses& poses = table.clips[slot];
+            const double duration = character.clips[static_cast<std::size_t>(out_of_order[slot])].duration;
+            EXPECT_EQ(poses.first_pose, next);
+            next += poses.pose_count;
+            if (poses.pose_count == 1) {
+                EXPECT_LE(poses.ticks_per_pose, std::max(1.0, duration * motion::ticks_per_second + 0.5));
+            } else {
+                EXPECT_NEAR(poses.ticks(), duration * motion::ticks_per_second, 0.5 * poses.ticks_per_pose + 0.5);
+            }
+        }
+        EXPECT_EQ(table.pose_count, next);
+    }
+}
+
+TEST(PoseTable, PointsCountAgainstTheBudgetToo) {
+    const motion::Character character = two_clips();
+    const std::vector<motion::SurfacePoint> points = scatter(character.mesh, 777);
+    for (const std::size_t budget : {std::size_t{40'000}, std::size_t{200'000}}) {
+        const motion::PoseTable table = motion::bake_poses(character, std::vector<int>{0, 1}, points, budget);
+        EXPECT_LE((table.vertices.size() + table.points.size()) * sizeof(motion::PosedVertex), budget);
+    }
+}
+
+TEST(PoseTable, HeightAndFloorAreThoseOfTheFirstPoseAlone) {
+    motion::Character character = two_clips();
+    for (const int clip : {0, 1}) {
+        const motion::PoseTable table = motion::bake_poses(character, std::vector<int>{clip, 1 - clip}, {}, plenty);
+        const motion::Bounds first = motion::bounds_of(skinned(character, clip, 0).positions);
+        EXPECT_EQ(table.rest_height, first.size().y);
+        EXPECT_EQ(table.floor, first.min.y);
+        EXPECT_LT(table.box.min.y, table.floor);  // some pose reaches lower
+        EXPECT_GT(table.box.size().y, table.rest_height);
+    }
+}
+
+TEST(PoseTable, OfAFlatPoseTheLongestSideStandsForTheHeight) {
+    for (const glm::vec3 sides : {glm::vec3(3, 0, 1), glm::vec3(1, 0, 3)}) {
+        motion::Character sheet;
+        sheet.skeleton.nodes.resize(1);
+        sheet.skeleton.palette.push_back({0, glm::mat4(1.0f)});
+        sheet.mesh.positions = {{0, 2, 0}, {sides.x, 2, 0}, {0, 2, sides.z}};
+        sheet.mesh.normals.assign(3, glm::vec3(0, 1, 0));
+        sheet.mesh.joints.resize(3);
+        sheet.mesh.weights.assign(3, glm::vec4(1, 0, 0, 0));
+        sheet.mesh.indices = {0, 2, 1};
+        const motion::PoseTable table = motion::bake_poses(sheet, {}, {}, plenty);
+        EXPECT_EQ(table.rest_height, 3.0f);
+        EXPECT_EQ(table.floor, 2.0f);
+        // Without any height, all is on the box's one level.
+        EXPECT_EQ(motion::unpack_position(table.vertices[1], table.box), sheet.mesh.positions[1]);
+    }
+}
+
+TEST(PoseTable, TheBoxesCornersAreExact) {
+    const motion::Character character = two_clips();
+    const motion::PoseTable table = motion::bake_poses(character, std::vector<int>{0, 1}, {}, plenty);
+    glm::vec3 low(1e9f), high(-1e9f);
+    for (const motion::PosedVertex& vertex : table.vertices) {
+        low = glm::min(low, motion::unpack_position(vertex, table.box));
+        high = glm::max(high, motion::unpack_position(vertex, table.box));
+    }
+    constexpr float rounding = 1e-6f;  // of min + (max - min)
+    EXPECT_EQ(low, table.box.min);
+    EXPECT_LT(glm::distance(high, table.box.max), rounding);
+}
+
+TEST(PoseTable, AreaIsTheLargestOfAnyClip) {
+    motion::Character character = two_clips();
+    const float first = motion::bake_poses(character, std::vector<int>{0}, {}, plenty).area,
+                second = motion::bake_poses(character, std::vector<int>{1}, {}, plenty).area;
+    EXPECT_NE(first, second);
+    for (const std::vector<int>& order : {std::vector<int>{0, 1}, {1, 0}})
+        EXPECT_EQ(motion::bake_poses(character, order, {}, plenty).area, std::max(first, second));
+}
+
 TEST(PackedNormal, EveryCodeUnpacksToAUnitVector) {
-    for (int u = -127; u <= 127; ++u)
-        for (int v = -127; v <= 127; ++v)
-            ASSERT_NEAR(
-                glm::length(motion::unpack_normal({0, 0, 0, static_cast<std::int8_t>(u), static_cast<std::int8_t>(v)})),
-                1.0f, 1e-5f);
+    for (int u = -127; u <= 127; ++u) {
+        for (int v = -127; v <= 127; ++v) {
+            const auto code = motion::OctahedralNormal{static_cast<std::int8_t>(u), static_cast<std::int8_t>(v)};
+            ASSERT_NEAR(glm::length(motion::unpack_normal(code)), 1.0f, 1e-5f);
+            ASSERT_EQ(motion::unpack_normal(code), motion::unpack_normal({0, 0, 0, code.u, code.v}));
+        }
+    }
+}
+
+// Octants, the rims between them and the axes are where a fold goes wrong.
+std::vector<glm::vec3> directions_of_every_kind() {
+    std::vector<glm::vec3> directions;
+    for (int x = -1; x <= 1; ++x)
+        for (int y = -1; y <= 1; ++y)
+            for (int z = -1; z <= 1; ++z)
+                if (x != 0 || y != 0 || z != 0) directions.emplace_back(x, y, z);
+    tests::Random random(21);
+    for (int i = 0; i < 100'000; ++i) directions.push_back(random.rotation() * glm::vec3(0, 0, 1));
+    for (int i = 0; i < 1000; ++i) {  // a hair off a rim
+        glm::vec3 near = directions[static_cast<std::size_t>(30 + i)];
+        near[i % 3] = random(-1e-6f, 1e-6f);
+        directions.push_back(near);
+    }
+    return directions;
+}
+
+TEST(PackedNormal, ComesBackWithinAStepAllOverTheSphere) {
+    // Half a step, 1 / 254, in both of the square's axes is sqrt(6) / 254 on the octahedron's face, whose middle is
+    // 1 / sqrt(3) from the origin.
+    constexpr double promised = 0.0168;  // [rad]
+    for (const glm::vec3& direction : directions_of_every_kind()) {
+        const glm::dvec3 got = motion::unpack_normal(motion::pack_normal(direction)),
+                         wanted = glm::normalize(glm::dvec3(direction));
+        ASSERT_LT(std::atan2(glm::length(glm::cross(got, wanted)), glm::dot(got, wanted)), promised)
+            << direction.x << ' ' << direction.y << ' ' << direction.z;
+    }
+}
+
+TEST(PackedNormal, LengthDoesNotMatterAndAxesAreExact) {
+    for (const glm::vec3& direction : directions_of_every_kind()) {
+        const motion::OctahedralNormal unit = motion::pack_normal(glm::normalize(direction)),
+                                       longer = motion::pack_normal(1024.0f * glm::normalize(direction));
+        ASSERT_EQ(std::pair(unit.u, unit.v), std::pair(longer.u, longer.v));
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const float sign : {-1.0f, 1.0f}) {
+            glm::vec3 normal(0);
+            normal[axis] = sign;
+            EXPECT_EQ(motion::unpack_normal(motion::pack_normal(normal)), normal);
+        }
+    }
+}
+
+TEST(PackedNormal, WhatHasNoDirectionIsUp) {
+    const float nan = std::nanf(""), infinity = std::numeric_limits<float>::infinity();
+    for (const glm::vec3& none :
+         {glm::vec3(0), glm::vec3(nan, 1, 0), glm::vec3(0, 0, -infinity), glm::vec3(1, nan, -1)})
+        EXPECT_EQ(motion::unpack_normal(motion::pack_normal(none)), glm::vec3(0, 0, 1));
 }
 
 }  // namespace

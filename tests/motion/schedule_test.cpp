@@ -38,6 +38,21 @@ TEST(Schedule, PeriodIsEquationOne) {
     EXPECT_EQ(motion::update_period(148.0f, 100.0f, 0.0625f), 3);
 }
 
+TEST(Schedule, ThetaIsThePapersUnlessSaid) {
+    EXPECT_GE(motion::default_theta, 0.05f);  // [1/m] Lyu et al. 2018, equation 1
+    EXPECT_LE(motion::default_theta, 0.1f);
+    for (float depth = 0; depth < 500; depth += 1.7f)
+        ASSERT_EQ(motion::update_period(depth, 40), motion::update_period(depth, 40, motion::default_theta));
+}
+
+TEST(Schedule, NobodyWaitsMuchLongerThanHalfASecond) {
+    EXPECT_LE(motion::max_period, 0.6 * motion::ticks_per_second);
+    EXPECT_EQ(motion::update_period(1e6f, 0), motion::max_period);
+    // The last whole period below it is reached as well.
+    EXPECT_EQ(motion::update_period(16.0f * (motion::max_period - 1), 0, 0.0625f), motion::max_period - 1);
+    EXPECT_EQ(motion::update_period(16.0f * motion::max_period - 0.5f, 0, 0.0625f), motion::max_period - 1);
+}
+
 TEST(Schedule, PeriodIsDefinedForWhatIsNotFinite) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     EXPECT_EQ(motion::update_period(nan, 10.0f), 1);
