@@ -64,6 +64,16 @@ TEST(Skin, CollapsedJointsKeepUnitNormals) {
     }
 }
 
+TEST(Skin, CollapsedJointsKeepTheUnposedNormalUnderMorphsToo) {
+    motion::Character ball = make_ball(glm::mat4(0.0f));
+    const std::size_t count = ball.mesh.vertex_count();
+    ball.mesh.morphs.push_back(
+        {0, 0, 1.0f, 0, std::vector<glm::vec3>(count), std::vector<glm::vec3>(count, glm::vec3(3, 0, 0))});
+    std::vector<glm::vec3> positions, normals;
+    pose_rest(ball, positions, normals);
+    EXPECT_EQ(normals, ball.mesh.normals);
+}
+
 TEST(Skin, PaletteOfIdentitiesChangesNothing) {
     motion::Character tentacle = tests::make_tentacle(5);
     motion::Pose pose;
