@@ -306,7 +306,9 @@ TEST(PoseTable, AClipsPeriodIsItsDurationToHalfAPose) {
             if (poses.pose_count == 1) {
                 EXPECT_LE(poses.ticks_per_pose, std::max(1.0, duration * motion::ticks_per_second + 0.5));
             } else {
-                EXPECT_NEAR(poses.ticks(), duration * motion::ticks_per_second, 0.5 * poses.ticks_per_pose + 0.5);
+                // Rounded to ticks, and these to poses.
+                const double off = 0.5 + (poses.ticks_per_pose > 1 ? 0.5 * poses.ticks_per_pose : 0.0);
+                EXPECT_NEAR(poses.ticks(), duration * motion::ticks_per_second, off);
             }
         }
         EXPECT_EQ(table.pose_count, next);
