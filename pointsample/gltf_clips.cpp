@@ -11,7 +11,7 @@ using motion::Path;
 Interpolation interpolation_of(const std::string& name) {
     if (name == "STEP") return Interpolation::step;
     if (name == "CUBICSPLINE") return Interpolation::cubic_spline;
-    if (name.empty() || name == "LINEAR") return Interpolation::linear;
+    if (name == "LINEAR") return Interpolation::linear;  // tinygltf says so where the file says nothing
     fail("the interpolation " + name, "LINEAR, STEP or CUBICSPLINE");
 }
 

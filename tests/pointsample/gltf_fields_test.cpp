@@ -326,6 +326,30 @@ TEST(GltfNodes, TheSceneAskedForIsShownWithAllBelowItsRoots) {
     EXPECT_EQ(load(builder).mesh.triangle_count(), 4u);
 }
 
+TEST(GltfNodes, JointsOfTwoSkinsKeepTheirOwnBinds) {
+    for (const std::size_t element : {0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14}) {
+        GltfBuilder builder = tests::make_everything();
+        std::vector<float> binds(32, 0.0f);
+        for (const std::size_t i : {0, 5, 10, 15, 16, 21, 26, 31}) binds[i] = 1;
+        binds[16 + element] += 3;  // of the second joint
+        builder.document["skins"].push_back(
+            {{"joints", {1, 2}}, {"inverseBindMatrices", builder.add("MAT4", tests::f32, 16, binds)}});
+        builder.node(3) = {{"mesh", 0}, {"skin", 1}};
+        builder.document["scenes"][0]["nodes"] = {0, 1, 3};
+        const motion::Character character = load(builder);
+        // The root's bind is the same in both, the tip's is not.
+        ASSERT_EQ(character.skeleton.palette.size(), 3u) << element;
+        const motion::Mesh& mesh = character.mesh;
+        const auto bind = [&](std::size_t vertex) {
+            return character.skeleton.palette[mesh.joints[vertex].x].inverse_bind;
+        };
+        glm::mat4 expected(1.0f);
+        EXPECT_EQ(bind(1), expected);
+        expected[static_cast<int>(element / 4)][static_cast<int>(element % 4)] += 3;
+        EXPECT_EQ(bind(4 + 1), expected);
+    }
+}
+
 // --- Clips
 
 // A square with clips whose samplers and channels are given.

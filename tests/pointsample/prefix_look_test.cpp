@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include "pointsample/sample.h"
+#include "tests/pointsample/models.h"
 #include "tests/pointsample/shapes.h"
 
 namespace {
@@ -61,6 +65,48 @@ TEST(PrefixLook, MeanOfAnyPrefixIsNearTheMeanOfAll) {
         for (const pointsample::PrefixLook& look : pointsample::prefix_looks(model, count))
             skin_share += look.tint[skin] / 255.0;
         EXPECT_NEAR(skin_share / static_cast<double>(count), 0.5, 0.15) << count;  // parts differ in size
+    }
+}
+
+// Whose part of the surface a point is: the nearest of the prefix, twice as far where it faces the other way.
+std::size_t owner_of(const pointsample::PointModel& model, std::size_t point, std::size_t count) {
+    std::size_t owner = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < count; ++i) {
+        const bool away = glm::dot(glm::dvec3(model.normals[i]), glm::dvec3(model.normals[point])) < 0;
+        const double distance =
+            glm::distance(glm::dvec3(model.positions[i]), glm::dvec3(model.positions[point])) * (away ? 2 : 1);
+        if (distance < least) least = distance, owner = i;
+    }
+    return owner;
+}
+
+TEST(PrefixLook, IsTheMeanLightAndTheSharesOfThePartThatIsNearest) {
+    constexpr double half_a_code = 0.51;
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        pointsample::PointModel model = tests::random_model(700, seed);
+        for (std::size_t i = 0; i < model.size(); ++i) model.normals[i] *= i % 2 ? -1.0f : 1.0f;  // facing anywhere
+        for (const std::size_t count : {1u, 2u, 5u, 24u}) {
+            std::vector<glm::dvec3> light(count, glm::dvec3(0));
+            std::vector<std::array<double, motion::tint_count>> tints(count, {{}});
+            std::vector<double> points(count);
+            for (std::size_t i = 0; i < model.size(); ++i) {
+                const std::size_t owner = i < count ? i : owner_of(model, i, count);
+                const glm::dvec3 color = glm::dvec3(glm::u8vec3(model.colors[i])) / 255.0;
+                light[owner] += color * color;
+                ++tints[owner][static_cast<std::size_t>(model.tints[i])];
+                ++points[owner];
+            }
+            const std::vector<pointsample::PrefixLook> looks = pointsample::prefix_looks(model, count);
+            ASSERT_EQ(looks.size(), count);
+            for (std::size_t p = 0; p < count; ++p) {
+                for (int channel = 0; channel < 3; ++channel)
+                    ASSERT_NEAR(looks[p].color[channel], 255 * std::sqrt(light[p][channel] / points[p]), half_a_code);
+                EXPECT_EQ(looks[p].color.a, 255);
+                for (std::size_t t = 1; t < motion::tint_count; ++t)
+                    ASSERT_NEAR(looks[p].tint[t - 1], 255 * tints[p][t] / points[p], half_a_code) << t;
+            }
+        }
     }
 }
 

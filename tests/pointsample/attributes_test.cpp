@@ -1,0 +1,201 @@
+// What points look like, against plain arithmetic in double.
+#include "pointsample/attributes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "tests/motion/tentacle.h"
+#include "tests/pointsample/shapes.h"
+
+namespace {
+
+using pointsample::PointModel;
+using pointsample::PosedMesh;
+
+// Of an sRGB code in [0, 255], and back (IEC 61966-2-1).
+double light_of(double code) {
+    const double c = code / 255;
+    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+}
+double code_of(double light) {
+    return 255 * (light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055);
+}
+
+// Triangles with vertices of their own, each in one of two textures or in none; all else differs from corner to corner.
+motion::Mesh patchwork(std::size_t triangles, std::uint64_t seed) {
+    tests::Random random(seed);
+    const auto byte = [&] { return static_cast<std::uint8_t>(random(0, 256)); };
+    motion::Mesh mesh;
+    for (std::uint32_t i = 0; i < 3 * triangles; ++i) {
+        mesh.indices.push_back(i);
+        mesh.positions.push_back(random.vector(-9, 9));
+        mesh.normals.push_back(random.rotation() * glm::vec3(0, 0, 1));
+        mesh.uvs.emplace_back(random(-2, 3), random(-2, 3));
+        mesh.colors.emplace_back(byte(), byte(), byte(), byte());
+        mesh.tints.push_back(static_cast<motion::Tint>(byte() % motion::tint_count));
+        const std::uint8_t textures[] = {0, 1, motion::no_texture};
+        mesh.texture_ids.push_back(textures[i / 3 % 3]);
+        mesh.joints.emplace_back(byte() % 6, byte() % 6, byte() % 6, byte() % 6);
+        const glm::vec4 weights(random(0, 1), random(0, 1), random(0, 1), 0.0f);
+        mesh.weights.push_back(weights / (weights.x + weights.y + weights.z));
+    }
+    for (const auto& [width, height] : {std::pair{5, 3}, {2, 7}}) {
+        motion::Texture texture{width, height, {}};
+        for (int i = 0; i < width * height; ++i) texture.texels.emplace_back(byte(), byte(), byte(), byte());
+        mesh.textures.push_back(texture);
+    }
+    std::swap(mesh.indices[1], mesh.indices[2]);  // the indices are no mere count
+    return mesh;
+}
+
+std::vector<motion::SurfacePoint> points_on(const motion::Mesh& mesh, std::size_t each) {
+    tests::Random random(99);
+    std::vector<motion::SurfacePoint> points;
+    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+        points.push_back({t, 0, 0});
+        points.push_back({t, 1, 0});
+        points.push_back({t, 0, 1});
+        for (std::size_t i = 0; i < each; ++i) {
+            const float u = random(0, 1);
+            points.push_back({t, u, random(0, 1) * (1 - u)});
+        }
+    }
+    return points;
+}
+
+// In a pose that is not the mesh's own.
+PosedMesh some_pose(const motion::Mesh& mesh) {
+    tests::Random random(5);
+    PosedMesh pose;
+    for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
+        pose.positions.push_back(random.vector(-3, 3));
+        pose.normals.push_back(random.rotation() * glm::vec3(0, 1, 0));
+    }
+    return pose;
+}
+
+// A point's corners, each with its share.
+struct Shares {
+    std::array<std::uint32_t, 3> vertex;
+    std::array<double, 3> share;
+
+    Shares(const motion::Mesh& mesh, const motion::SurfacePoint& point)
+        : vertex{mesh.indices[3 * point.triangle], mesh.indices[3 * point.triangle + 1],
+                 mesh.indices[3 * point.triangle + 2]},
+          share{1.0 - static_cast<double>(point.u) - static_cast<double>(point.v), point.u, point.v} {}
+
+    template <typename Value>
+    Value mean(const auto& of) const {
+        return share[0] * Value(of(vertex[0])) + share[1] * Value(of(vertex[1])) + share[2] * Value(of(vertex[2]));
+    }
+};
+
+glm::dvec3 light_of_texel(const motion::Texture& texture, int x, int y) {
+    const auto wrapped = [](int i, int size) { return ((i % size) + size) % size; };
+    const glm::u8vec4 texel =
+        texture
+            .texels[static_cast<std::size_t>(wrapped(y, texture.height) * texture.width + wrapped(x, texture.width))];
+    return {light_of(texel.r), light_of(texel.g), light_of(texel.b)};
+}
+
+// Each texel weighs by how near its centre is, to one texel on both axes.
+glm::dvec3 light_of_texture(const motion::Texture& texture, const glm::dvec2& uv) {
+    const double x = uv.x * texture.width, y = uv.y * texture.height;
+    glm::dvec3 light(0);
+    for (int i = static_cast<int>(std::floor(x)) - 1; i <= static_cast<int>(std::floor(x)) + 1; ++i)
+        for (int j = static_cast<int>(std::floor(y)) - 1; j <= static_cast<int>(std::floor(y)) + 1; ++j)
+            light += light_of_texel(texture, i, j) * std::max(0.0, 1 - std::abs(x - (i + 0.5))) *
+                     std::max(0.0, 1 - std::abs(y - (j + 0.5)));
+    return light;
+}
+
+PointModel described(const motion::Mesh& mesh, const PosedMesh& pose, std::vector<motion::SurfacePoint> points) {
+    PointModel model;
+    model.surface = std::move(points);
+    pointsample::describe(mesh, pose, model);
+    return model;
+}
+
+TEST(Attributes, PlacesAndNormalsAreThePosesBlended) {
+    const motion::Mesh mesh = patchwork(60, 1);
+    const PosedMesh pose = some_pose(mesh);
+    const PointModel model = described(mesh, pose, points_on(mesh, 20));
+    for (std::size_t i = 0; i < model.surface.size(); ++i) {
+        const Shares shares(mesh, model.surface[i]);
+        const auto place = shares.mean<glm::dvec3>([&](std::uint32_t v) { return pose.positions[v]; });
+        ASSERT_LT(glm::distance(glm::dvec3(model.positions[i]), place), 1e-6);
+        const auto normal = shares.mean<glm::dvec3>([&](std::uint32_t v) { return pose.normals[v]; });
+        if (glm::length(normal) < 0.01) continue;  // the corners' cancel out
+        ASSERT_LT(glm::distance(glm::dvec3(model.normals[i]), glm::normalize(normal)), 1e-4);
+    }
+}
+
+TEST(Attributes, WhereNormalsCancelOutTheTrianglesOwnStands) {
+    motion::Mesh mesh = tests::make_triangle({0, 0, 0}, {2, 0, 0}, {0, 0, -3});  // faces +y
+    PosedMesh pose{mesh.positions, {{1, 0, 0}, {-1, 0, 0}, {0, 0, 1}}};
+    EXPECT_EQ(described(mesh, pose, {{0, 0.5f, 0}}).normals[0], glm::vec3(0, 1, 0));
+}
+
+TEST(Attributes, ColorsAreTextureTimesVertexInLightAtThePoint) {
+    constexpr double code = 0.51;  // half a code, and the float's rounding
+    const motion::Mesh mesh = patchwork(90, 2);
+    const PointModel model = described(mesh, some_pose(mesh), points_on(mesh, 20));
+    for (std::size_t i = 0; i < model.surface.size(); ++i) {
+        const Shares shares(mesh, model.surface[i]);
+        glm::dvec3 light = shares.mean<glm::dvec3>([&](std::uint32_t v) {
+            return glm::dvec3(light_of(mesh.colors[v].r), light_of(mesh.colors[v].g), light_of(mesh.colors[v].b));
+        });
+        const std::uint8_t texture = mesh.texture_ids[shares.vertex[0]];
+        if (texture != motion::no_texture)
+            light *= light_of_texture(mesh.textures[texture],
+                                      shares.mean<glm::dvec2>([&](std::uint32_t v) { return mesh.uvs[v]; }));
+        for (int channel = 0; channel < 3; ++channel)
+            ASSERT_NEAR(model.colors[i][channel], code_of(light[channel]), code) << i << " texture " << int(texture);
+        const auto alpha = shares.mean<double>([&](std::uint32_t v) { return mesh.colors[v].a; });
+        ASSERT_NEAR(model.colors[i].a, alpha, code);
+    }
+}
+
+TEST(Attributes, TintsAreOfTheCornerWithTheLargestShare) {
+    const motion::Mesh mesh = patchwork(60, 3);
+    const PointModel model = described(mesh, some_pose(mesh), points_on(mesh, 20));
+    for (std::size_t i = 0; i < model.surface.size(); ++i) {
+        const Shares shares(mesh, model.surface[i]);
+        const auto nearest = std::max_element(shares.share.begin(), shares.share.end()) - shares.share.begin();
+        ASSERT_EQ(model.tints[i], mesh.tints[shares.vertex[static_cast<std::size_t>(nearest)]]) << i;
+    }
+}
+
+TEST(Attributes, InfluencesAreTheFourHeaviestJointsOfAllCorners) {
+    const motion::Mesh mesh = patchwork(60, 4);
+    const PointModel model = described(mesh, some_pose(mesh), points_on(mesh, 20));
+    constexpr double rounding = 1e-6;
+    for (std::size_t i = 0; i < model.surface.size(); ++i) {
+        const Shares shares(mesh, model.surface[i]);
+        std::map<int, double> joints;
+        for (std::size_t k = 0; k < 3; ++k)
+            for (int j = 0; j < 4; ++j)
+                joints[mesh.joints[shares.vertex[k]][j]] +=
+                    shares.share[k] * static_cast<double>(mesh.weights[shares.vertex[k]][j]);
+        std::vector<double> heaviest;
+        for (const auto& [joint, weight] : joints) heaviest.push_back(weight);
+        std::sort(heaviest.rbegin(), heaviest.rend());
+        heaviest.resize(4);
+        const double sum = heaviest[0] + heaviest[1] + heaviest[2] + heaviest[3];
+        for (int k = 0; k < 4; ++k) {
+            const double weight = static_cast<double>(model.weights[i][k]);
+            ASSERT_NEAR(weight, heaviest[static_cast<std::size_t>(k)] / sum, rounding);
+            if (weight > 0) {
+                ASSERT_NEAR(weight, joints[model.joints[i][k]] / sum, rounding);
+            }
+            for (int j = 0; j < k && weight > 0; ++j) ASSERT_NE(model.joints[i][j], model.joints[i][k]);
+        }
+    }
+}
+
+}  // namespace
