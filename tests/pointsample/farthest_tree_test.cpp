@@ -119,7 +119,8 @@ TEST(FarthestTree, KnowsEveryKeyAsPointsComeAndGo) {
     const auto any = [&](std::size_t count) { return static_cast<std::size_t>(random(0, static_cast<float>(count))); };
     EXPECT_EQ(tree.farthest(), std::numeric_limits<float>::infinity());
     for (int step = 0; step < 400; ++step) {
-        if (all.chosen().size() > 2 && random(0, 1) < 0.4f) {
+        const bool few = step < 200;  // then the nearest of those left may be far away
+        if (all.chosen().size() > (few ? 3 : 2) && random(0, 1) < (few ? 0.7f : 0.4f)) {
             const std::size_t gone = all.chosen()[any(all.chosen().size())];
             tree.unchoose(gone);
             all.unchoose(gone);
@@ -134,9 +135,32 @@ TEST(FarthestTree, KnowsEveryKeyAsPointsComeAndGo) {
             tree.choose(next);
             all.choose(next);
         }
-        if (step % 10 == 0) {
+        if (few || step % 10 == 0) {
             ASSERT_NO_FATAL_FAILURE(expect_alike(tree, all, many)) << step;
         }
+    }
+}
+
+// Far from all else, whose nearest others are many times farther than any candidate was from its own.
+TEST(FarthestTree, TheOnlyPointOfAFarClumpCanGo) {
+    Candidates near = clumps(900, 13), candidates;
+    for (std::size_t i = 0; i < near.count; ++i) {
+        Place place = near.place(i);
+        place.position = 0.02f * place.position + glm::vec3(i < 300 ? 0 : i < 600 ? 3 : 30, 0, 0);
+        candidates.append(place, near.stretch(i), near.surface[i]);
+    }
+    candidates.pad();
+    pointsample::FarthestTree<true> tree(candidates);
+    Everything all(candidates);
+    for (const std::size_t point : {10u, 400u, 800u}) {
+        tree.choose(point);
+        all.choose(point);
+    }
+    for (const std::size_t point : {400u, 800u}) {
+        tree.unchoose(point);
+        all.unchoose(point);
+        ASSERT_NO_FATAL_FAILURE(expect_alike(tree, all, candidates.count)) << point;
+        EXPECT_GE(all.key(tree.next()), all.largest_key() * (1 - rounding));
     }
 }
 

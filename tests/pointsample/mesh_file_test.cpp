@@ -45,6 +45,11 @@ TEST_F(MeshFile, ACubeIsTheSameInEveryFormat) {
         EXPECT_EQ(character.skeleton.nodes.size(), 1u);
         EXPECT_EQ(character.skeleton.palette.size(), 1u);
         EXPECT_TRUE(character.clips.empty());
+        EXPECT_TRUE(mesh.double_sided);  // neither format says
+        EXPECT_EQ(mesh.weights[0], glm::vec4(1, 0, 0, 0));
+        motion::Pose pose;
+        motion::evaluate_rest(character, pose);
+        EXPECT_EQ(pose.palette[mesh.joints[0].x], glm::mat4(1.0f));
         EXPECT_EQ(mesh.triangle_count(), 12u);
         EXPECT_DOUBLE_EQ(tests::area_of(mesh), 24.0);
         const motion::Bounds bounds = motion::bounds_of(mesh.positions);

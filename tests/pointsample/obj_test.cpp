@@ -116,6 +116,80 @@ TEST_F(Obj, MaterialsColorTheirFaces) {
     EXPECT_EQ(mesh.textures[0].texels[0], glm::u8vec4(255, 32, 16, 255));
 }
 
+// Two libraries, two textures, two looks by turns: no face has another's.
+TEST_F(Obj, FacesKeepTheLookThatIsInUse) {
+    folder_.write("a.mtl", "newmtl one\nKd 1 0 0\nmap_Kd one.png\nnewmtl plain\nKd 0 0 1\n");
+    folder_.write("b.mtl", "newmtl two\nKd 0 1 0\nmap_Kd two.png\nnewmtl same\nmap_Kd two.png\n");
+    folder_.write("one.png", tests::make_png(1, 1, "abc"));
+    folder_.write("two.png", tests::make_png(1, 1, "xyz"));
+    const std::string corners = "f 1/1/1 2/2/1 3/3/2\n";
+    std::string text =
+        "mtllib a.mtl b.mtl\n" + square + "vt 0.1 0.9\nvt 0.2 0.8\nvt 0.3 0.7\nvn 0 0 1\nvn 0 1 0\n" + corners;
+    const char* looks[] = {"two", "one", "plain", "two", "same", "one"};
+    for (const char* look : looks) text += std::string("usemtl ") + look + "\n" + corners;
+    const Mesh mesh = load(text);
+    ASSERT_EQ(mesh.triangle_count(), 7u);
+    EXPECT_EQ(mesh.vertex_count(), 3u * 5);  // looks that come again share their vertices
+    EXPECT_EQ(mesh.textures.size(), 2u);
+    struct Expected {
+        glm::u8vec4 color;
+        char texel;  // 0: no texture
+    };
+    const Expected white{glm::u8vec4(255), 0}, one{{255, 0, 0, 255}, 'a'}, two{{0, 255, 0, 255}, 'x'},
+        plain{{0, 0, 255, 255}, 0}, same{glm::u8vec4(255), 'x'};
+    const Expected expected[] = {white, two, one, plain, two, same, one};
+    for (std::size_t corner = 0; corner < mesh.indices.size(); ++corner) {
+        const std::uint32_t vertex = mesh.indices[corner];
+        const Expected& look = expected[corner / 3];
+        EXPECT_EQ(mesh.colors[vertex], look.color) << corner;
+        const std::uint8_t texture = mesh.texture_ids[vertex];
+        ASSERT_EQ(texture == motion::no_texture, look.texel == 0) << corner;
+        if (look.texel != 0) {
+            EXPECT_EQ(mesh.textures[texture].texels[0].r, look.texel) << corner;
+        }
+        const float n = 0.1f * static_cast<float>(corner % 3 + 1);
+        EXPECT_LT(glm::distance(mesh.uvs[vertex], glm::vec2(n, n)), 1e-6f) << corner;
+        EXPECT_EQ(mesh.normals[vertex], corner % 3 == 2 ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, 1)) << corner;
+    }
+}
+
+TEST_F(Obj, AColorMultipliesItsTextureUnlessItIsBlack) {
+    folder_.write("a.mtl",
+                  "newmtl half\nKd 0.5 1 0\nmap_Kd a.png\nnewmtl black\nKd 0 0 0\nmap_Kd a.png\n"
+                  "newmtl dark\nKd 0 0 0\nnewmtl spectral\nKd spectral file.rfl\n");
+    folder_.write("a.png", tests::make_png(1, 1, "abc"));
+    const Mesh mesh = load("mtllib a.mtl\n" + square +
+                           "vt 0 0\nusemtl half\nf 1/1 2/1 3/1\nusemtl black\nf 1/1 2/1 3/1\nusemtl dark\nf 1 2 3\n"
+                           "usemtl spectral\nf 1 2 3\n");
+    EXPECT_EQ(mesh.colors[mesh.indices[0]], glm::u8vec4(128, 255, 0, 255));
+    EXPECT_EQ(mesh.colors[mesh.indices[3]], glm::u8vec4(255));
+    EXPECT_EQ(mesh.colors[mesh.indices[6]], glm::u8vec4(0, 0, 0, 255));
+    EXPECT_EQ(mesh.colors[mesh.indices[9]], glm::u8vec4(255));
+    EXPECT_EQ(mesh.textures.size(), 1u);
+}
+
+TEST_F(Obj, MaterialsMultiplyVertexColorsAsLight) {
+    folder_.write("a.mtl", "newmtl a\nKd 0.73725 0.5 1\n");  // sRGB's codes 188 (half of the light), 128 and 255
+    const Mesh mesh = load("mtllib a.mtl\nv 0 0 0 0.73725 1 0.2\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
+    EXPECT_EQ(mesh.colors[0], glm::u8vec4(138, 128, 51, 255));  // half of half the light
+    EXPECT_EQ(mesh.colors[1], glm::u8vec4(188, 128, 255, 255));
+}
+
+TEST_F(Obj, NegativeIndicesCountFromWhatIsReadSoFar) {
+    const Mesh mesh = load(
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.5 0.5\nvn 1 0 0\nf -3/-1/-1 -2/-1/-1 -1/-1/-1\n"
+        "v 5 0 0\nv 6 0 0\nv 5 1 0\nvt 0.25 0.25\nvn 0 1 0\nf -3/-1/-1 -2/-1/-1 -1/-2/-2\n");
+    ASSERT_EQ(mesh.triangle_count(), 2u);
+    const auto at = [&](std::size_t corner) { return mesh.indices[corner]; };
+    EXPECT_EQ(mesh.positions[at(1)], glm::vec3(1, 0, 0));
+    EXPECT_EQ(mesh.positions[at(4)], glm::vec3(6, 0, 0));
+    EXPECT_EQ(mesh.uvs[at(0)], glm::vec2(0.5f));
+    EXPECT_EQ(mesh.uvs[at(3)], glm::vec2(0.25f, 0.75f));
+    EXPECT_EQ(mesh.normals[at(0)], glm::vec3(1, 0, 0));
+    EXPECT_EQ(mesh.normals[at(3)], glm::vec3(0, 1, 0));
+    EXPECT_EQ(mesh.normals[at(5)], glm::vec3(1, 0, 0));
+}
+
 TEST_F(Obj, MissingLibrariesAreNoError) {
     for (const char* line : {"mtllib none.mtl", "mtllib none.mtl other.mtl", "mtllib", "mtllib /dev/zero", "mtllib ."})
         EXPECT_EQ(load(line + ("\nusemtl a\n" + square) + "f 1 2 3\n").colors[0], glm::u8vec4(255)) << line;

@@ -1,7 +1,9 @@
 // PLY meshes: what headers may say, and what they must not.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
+#include <limits>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -113,6 +115,96 @@ TEST_F(Ply, SixteenBitColorsAreScaled) {
         "red\nproperty ushort green\nproperty ushort blue\nelement face 1\nproperty list uchar int vertex_indices\n"
         "end_header\n0 0 0 65535 257 0\n1 0 0 0 0 0\n0 1 0 0 0 0\n3 0 1 2");
     EXPECT_EQ(mesh.colors[0], glm::u8vec4(255, 1, 0, 255));
+}
+
+// Coordinates, corners and the lengths of lists in a type of either name.
+template <typename Number>
+std::string file_of_type(const std::string& format, const std::string& type, bool whole) {
+    const std::string index = whole ? type : "int", length = whole ? type : "uchar";
+    tests::PlyValues values(format);
+    for (const std::array<Number, 3>& place : {std::array<Number, 3>{0, 0, 0},
+                                               {std::numeric_limits<Number>::max(), 1, 2},
+                                               {std::numeric_limits<Number>::lowest(), 3, 5},
+                                               {7, 11, 13}}) {
+        for (const Number number : place) values.put(number);
+        values.end_record();
+    }
+    if (whole) {
+        for (const int number : {3, 3, 1, 0}) values.put(static_cast<Number>(number));
+    } else {
+        values.put(std::uint8_t{3});
+        for (const std::int32_t number : {3, 1, 0}) values.put(number);
+    }
+    values.end_record();
+    return "ply\nformat " + format + " 1.0\nelement vertex 4\nproperty " + type + " x\nproperty " + type +
+           " y\nproperty " + type + " z\nelement face 1\nproperty list " + length + " " + index +
+           " vertex_indices\nend_header\n" + values.str();
+}
+
+template <typename Number>
+void expect_type(const char* short_name, const char* long_name, auto load) {
+    for (const std::string format : tests::ply_formats) {
+        for (const std::string type : {short_name, long_name}) {
+            SCOPED_TRACE(format + " " + type);
+            const Mesh mesh = load(file_of_type<Number>(format, type, std::numeric_limits<Number>::is_integer));
+            ASSERT_EQ(mesh.vertex_count(), 3u);  // the third is of no face
+            ASSERT_EQ(mesh.indices, (std::vector<std::uint32_t>{2, 1, 0}));
+            EXPECT_EQ(mesh.positions[1].x, static_cast<float>(std::numeric_limits<Number>::max()));
+            EXPECT_EQ(mesh.positions[2], glm::vec3(7, 11, 13));
+        }
+    }
+}
+
+TEST_F(Ply, EveryTypeIsReadInEveryFormat) {
+    const auto load = [this](const std::string& bytes) { return this->load(bytes); };
+    expect_type<std::int8_t>("char", "int8", load);
+    expect_type<std::uint8_t>("uchar", "uint8", load);
+    expect_type<std::int16_t>("short", "int16", load);
+    expect_type<std::uint16_t>("ushort", "uint16", load);
+    expect_type<std::int32_t>("int", "int32", load);
+    expect_type<std::uint32_t>("uint", "uint32", load);
+    expect_type<float>("float", "float32", load);
+}
+
+TEST_F(Ply, DoublesAndNegativeNumbersAreRead) {
+    for (const std::string format : tests::ply_formats) {
+        tests::PlyValues values(format);
+        for (const int i : {-1, 2, -3}) {
+            values.put(i * 0.125);
+            values.put(static_cast<std::int8_t>(10 * i));
+            values.put(static_cast<std::int16_t>(-1000 * i * i));
+            values.end_record();
+        }
+        values.put(std::uint8_t{3});
+        for (const std::int32_t corner : {0, 1, 2}) values.put(corner);
+        values.end_record();
+        const Mesh mesh = load("ply\nformat " + format +
+                               " 1.0\nelement vertex 3\nproperty double x\nproperty char y\nproperty short z\n"
+                               "element face 1\nproperty list uchar int vertex_indices\nend_header\n" +
+                               values.str());
+        EXPECT_EQ(mesh.positions,
+                  (std::vector<glm::vec3>{{-0.125f, -10, -1000}, {0.25f, 20, -4000}, {-0.375f, -30, -9000}}));
+    }
+}
+
+TEST_F(Ply, NormalsAndColorsStayWithTheirVerticesWhenOthersAreDropped) {
+    tests::PlainMesh mesh;
+    for (std::uint32_t i = 0; i < 6; ++i) {
+        const float n = static_cast<float>(i);
+        mesh.positions.emplace_back(n, n * n, 0);
+        mesh.normals.push_back(glm::normalize(glm::vec3(n, 1, 0)));
+        mesh.colors.emplace_back(10 * i, 20 * i, 30 * i);
+    }
+    mesh.faces = {{5, 1, 3}};
+    for (const char* format : tests::ply_formats) {
+        const Mesh got = load(tests::ply_of(mesh, format));
+        ASSERT_EQ(got.indices, (std::vector<std::uint32_t>{2, 0, 1}));
+        for (std::size_t i = 0; i < 3; ++i) {
+            EXPECT_EQ(got.positions[i], mesh.positions[2 * i + 1]);
+            EXPECT_LT(glm::distance(got.normals[i], mesh.normals[2 * i + 1]), 1e-6f);
+            EXPECT_EQ(got.colors[i], glm::u8vec4(mesh.colors[2 * i + 1], 255));
+        }
+    }
 }
 
 TEST_F(Ply, NormalsThatAreGivenStayAndOthersAreComputed) {
