@@ -223,6 +223,9 @@ TEST(FarthestTree, AllCandidatesComeOnce) {
         EXPECT_EQ(seen.size(), count);
         EXPECT_LT(*seen.rbegin(), count);
         EXPECT_EQ(order.candidates.front(), first);
+        pointsample::FarthestTree<true> tree(candidates);
+        for (std::size_t i = 0; i < count; ++i) tree.choose(i);
+        EXPECT_LT(tree.farthest(), 0);  // nobody is left, though the last leaf is filled up
     }
 }
 
