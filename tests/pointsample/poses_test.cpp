@@ -100,4 +100,102 @@ TEST(Poses, WhatIsSeenInOnePoseStays) {
     }
 }
 
+// What a model says of itself, bit by bit.
+void expect_same_points(const PointModel& a, const PointModel& b) {
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        ASSERT_EQ(a.surface[i].triangle, b.surface[i].triangle) << i;
+        ASSERT_EQ(a.surface[i].u, b.surface[i].u) << i;
+        ASSERT_EQ(a.surface[i].v, b.surface[i].v) << i;
+        ASSERT_EQ(a.normals[i], b.normals[i]) << i;
+    }
+    EXPECT_EQ(a.hidden_removed, b.hidden_removed);
+}
+
+// A sphere whose upper half is stretched in one pose and its lower in another, with a ball in it that looks out.
+std::vector<PosedMesh> three_poses(const motion::Mesh& mesh) {
+    std::vector<PosedMesh> poses = poses_of(mesh, 3);
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        if (mesh.positions[i].y > 0) poses[1].positions[i].x *= 2;
+        if (mesh.positions[i].y < 0) poses[2].positions[i].z *= 3;
+    }
+    return poses;
+}
+
+TEST(Poses, OnlyTheFirstIsAboveTheOthers) {
+    motion::Mesh mesh = apart(tests::make_sphere(1, 3));
+    tests::append(mesh, apart(tests::make_sphere(0.9f, 2)));
+    const std::vector<PosedMesh> poses = three_poses(mesh);
+    for (const Order order : {Order::progressive, Order::even, Order::uniform}) {
+        const auto sample = [&](std::vector<std::size_t> which) {
+            std::vector<PosedMesh> chosen;
+            for (const std::size_t pose : which) chosen.push_back(poses[pose]);
+            return pointsample::sample(mesh, chosen, {800, 1, order, order == Order::progressive});
+        };
+        const PointModel model = sample({0, 1, 2});
+        for (const std::vector<std::size_t>& which : {std::vector<std::size_t>{0, 2, 1}, {0, 2, 2, 1, 0}}) {
+            const PointModel other = sample(which);
+            ASSERT_NO_FATAL_FAILURE(expect_same_points(model, other));
+            EXPECT_EQ(model.positions, other.positions);
+            EXPECT_EQ(model.spacing, other.spacing);
+            ASSERT_EQ(model.coverage.size(), other.coverage.size());
+            for (std::size_t i = 0; i < model.coverage.size(); ++i)
+                EXPECT_EQ(model.coverage[i].radius, other.coverage[i].radius) << i;
+        }
+        // Without either there are fewer points where it stretches.
+        EXPECT_NE(sample({0, 1}).positions, model.positions);
+        EXPECT_NE(sample({0, 2}).positions, model.positions);
+    }
+}
+
+// By a power of two, so that no float is rounded otherwise.
+TEST(Poses, ALargerSurfaceHasTheSamePointsFartherApart) {
+    const motion::Mesh mesh = apart(tests::make_sphere(1, 3));
+    const std::vector<PosedMesh> poses = three_poses(mesh);
+    for (const Order order : {Order::progressive, Order::even, Order::uniform}) {
+        const PointModel model = pointsample::sample(mesh, poses, {800, 1, order, true});
+        for (const float size : {1.0f / 16, 64.0f}) {
+            std::vector<PosedMesh> larger = poses;
+            for (PosedMesh& pose : larger)
+                for (glm::vec3& position : pose.positions) position *= size;
+            const PointModel other = pointsample::sample(mesh, larger, {800, 1, order, true});
+            ASSERT_NO_FATAL_FAILURE(expect_same_points(model, other));
+            EXPECT_EQ(other.area, model.area * size * size);
+            for (std::size_t i = 0; i < model.size(); ++i) {
+                ASSERT_EQ(other.positions[i], size * model.positions[i]) << i;
+                ASSERT_FLOAT_EQ(other.spacing[i], size * model.spacing[i]) << i;
+            }
+            for (std::size_t i = 0; i < model.coverage.size(); ++i)
+                ASSERT_FLOAT_EQ(other.coverage[i].radius, size * model.coverage[i].radius) << i;
+        }
+    }
+}
+
+// What is stretched to four times its area has its points half as far apart in the first pose, in any order.
+TEST(Poses, APointsSpacingIsThatWhereItIsStretchedMost) {
+    const motion::Mesh sphere = apart(tests::make_sphere(1, 4));
+    std::vector<PosedMesh> poses = poses_of(sphere, 2);
+    for (std::size_t i = 0; i < sphere.indices.size(); ++i)
+        if (is_upper(sphere, i / 3)) poses[1].positions[i] *= 2.0f;
+    for (const auto& [order, reached] : {std::pair{Order::progressive, 0.64}, {Order::even, 0.72}}) {
+        constexpr std::size_t count = 3000;
+        const PointModel model = pointsample::sample(sphere, poses, {count, 1, order, false});
+        // Of the densest packing of so many on both halves together, the upper of four times the area.
+        const double area = 2 * std::numbers::pi * (1 + 4);
+        const double densest = 2 * std::sqrt(area / (2 * std::numbers::sqrt3 * count));
+        double least[2] = {9, 9};  // lower, upper, in the second pose
+        for (std::size_t i = 0; i < count; ++i) {
+            for (std::size_t k = 0; k < i; ++k) {
+                const glm::vec3 a = model.positions[i], b = model.positions[k];
+                if (std::abs(a.y) < 0.1f || std::abs(b.y) < 0.1f || (a.y > 0) != (b.y > 0)) continue;  // the seam
+                const bool upper = a.y > 0;
+                least[upper] = std::min(least[upper], static_cast<double>(glm::distance(a, b) * (upper ? 2.0f : 1.0f)));
+            }
+        }
+        EXPECT_GT(least[0], reached * densest);
+        EXPECT_GT(least[1], reached * densest);
+        EXPECT_NEAR(static_cast<double>(model.spacing.back()), std::min(least[0], least[1]), 0.1 * densest);
+    }
+}
+
 }  // namespace

@@ -38,51 +38,68 @@ motion::Mesh pierced(const glm::vec3& center, const std::vector<glm::vec3>& hole
 
 const glm::vec3 up(0, 0, 1), far_off(9, 0, 0);
 
-// A sphere with a hole above and one below: from its middle a place that faces up sees the one, down the other. And a
-// whole sphere from which nothing is seen.
-motion::Mesh two_holes_and_a_prison() {
-    motion::Mesh mesh = pierced(glm::vec3(0), {up, -up});
-    tests::append(mesh, pierced(far_off, {}));
-    return mesh;
-}
+// A sphere with a hole on either side: from its middle a place that faces one sees no other. And a whole sphere from
+// which nothing is seen.
+struct TwoHolesAndAPrison {
+    motion::Mesh mesh;
+    Place one, other, imprisoned{far_off, up};
 
-const Place upward{glm::vec3(0), up}, downward{glm::vec3(0), -up}, imprisoned{far_off, up};
+    explicit TwoHolesAndAPrison(const glm::vec3& hole)
+        : mesh(pierced(glm::vec3(0), {hole, -hole})), one{glm::vec3(0), hole}, other{glm::vec3(0), -hole} {
+        tests::append(mesh, pierced(far_off, {}));
+    }
+};
+
+// Of many, as those that are asked first find some holes by chance.
+std::vector<glm::vec3> axes() {
+    tests::Random random(7);
+    std::vector<glm::vec3> axes{up};
+    while (axes.size() < 10) axes.push_back(random.rotation() * up);
+    return axes;
+}
 
 std::vector<char> look(const motion::Mesh& mesh, const std::vector<Place>& places) {
     return Visibility(mesh.positions, mesh.indices).look(places, false);
 }
 
 TEST(Visibility, AfterOneThatSeesOutEveryPlaceIsAskedInAllDirections) {
-    const motion::Mesh mesh = two_holes_and_a_prison();
-    // The direction that one sees out in is no use to the next.
-    std::vector<Place> places{imprisoned, imprisoned};
-    for (std::size_t i = 0; i < rays_after_hidden + 4; ++i) places.push_back(upward);
-    const std::size_t opened = places.size();
-    for (int i = 0; i < 40; ++i) places.push_back(i % 2 ? upward : downward);
-    const std::vector<char> seen = look(mesh, places);
-    EXPECT_FALSE(seen[0] || seen[1]);
-    for (std::size_t i = opened; i < places.size(); ++i) EXPECT_TRUE(seen[i]) << i - opened;
+    for (const glm::vec3& axis : axes()) {
+        const TwoHolesAndAPrison scene(axis);
+        // The direction that one sees out in is no use to the next.
+        std::vector<Place> places{scene.imprisoned, scene.imprisoned};
+        places.resize(places.size() + rays_after_hidden + 4, scene.one);
+        const std::size_t opened = places.size();
+        for (int i = 0; i < 40; ++i) places.push_back(i % 2 ? scene.one : scene.other);
+        const std::vector<char> seen = look(scene.mesh, places);
+        EXPECT_FALSE(seen[0] || seen[1]);
+        for (std::size_t i = opened; i < places.size(); ++i) EXPECT_TRUE(seen[i]) << i - opened;
+    }
 }
 
 TEST(Visibility, HiddenRunsThatOpenAgainAreSeenWhereverTheyDo) {
-    const motion::Mesh mesh = two_holes_and_a_prison();
     // By then every direction has been asked once, eight at a time.
     constexpr std::size_t patience = directions_asked / rays_after_hidden;
-    for (std::size_t hidden = 1; hidden < 24; ++hidden) {
-        for (const Place& place : {upward, downward}) {
-            std::vector<Place> places(hidden, imprisoned);
-            places.resize(hidden + 2 * patience, place);
-            const std::vector<char> seen = look(mesh, places);
-            for (std::size_t i = hidden + patience; i < places.size(); ++i) EXPECT_TRUE(seen[i]) << hidden;
+    for (const glm::vec3& axis : axes()) {
+        const TwoHolesAndAPrison scene(axis);
+        const Visibility visibility(scene.mesh.positions, scene.mesh.indices);
+        for (std::size_t hidden = 1; hidden < 24; hidden += 2) {
+            for (const Place& place : {scene.one, scene.other}) {
+                std::vector<Place> places(hidden, scene.imprisoned);
+                places.resize(hidden + 2 * patience, place);
+                const std::vector<char> seen = visibility.look(places, false);
+                for (std::size_t i = hidden + patience; i < places.size(); ++i) EXPECT_TRUE(seen[i]) << hidden;
+            }
         }
     }
 }
 
 TEST(Visibility, RunsForgetEachOther) {
-    const motion::Mesh mesh = two_holes_and_a_prison();
-    std::vector<Place> places(256, imprisoned);  // one run
-    places.push_back(upward);
-    EXPECT_TRUE(look(mesh, places).back());
+    for (const glm::vec3& axis : axes()) {
+        const TwoHolesAndAPrison scene(axis);
+        std::vector<Place> places(256, scene.imprisoned);  // one run
+        places.push_back(scene.one);
+        EXPECT_TRUE(look(scene.mesh, places).back());
+    }
 }
 
 TEST(Visibility, AHoleOfATwentiethOfTheSkyIsFoundWhereverItIs) {
