@@ -312,6 +312,29 @@ TEST(Opening, StandsForTheSurfaceNearlyAsWellAsTheBestOfAllCandidates) {
                   1.1 * mean_distance(candidates, best));
 }
 
+// Of up to 512 candidates all are looked at.
+TEST(Opening, TakesWhatLowersTheMeanDistanceMostAndIsFarEnoughByItsStretch) {
+    const Candidates candidates = clumps(400, 14);
+    for (const float apart : {0.0f, 0.3f, 0.5f}) {
+        std::vector<std::uint32_t> best;
+        Everything all(candidates);
+        while (best.size() < 16) {
+            std::pair<double, std::uint32_t> least{infinity, 0};
+            for (std::uint32_t i = 0; i < candidates.count; ++i) {
+                if (all.is_point(i) || all.key(i) < static_cast<double>(apart * apart)) continue;
+                double sum = 0;
+                for (std::size_t k = 0; k < candidates.count; ++k)
+                    sum += std::min(all.distance(k), squared(candidates.place(i), candidates.place(k)));
+                least = std::min(least, {sum, i});
+            }
+            if (least.first == infinity) break;
+            best.push_back(least.second);
+            all.choose(least.second);
+        }
+        EXPECT_EQ(pointsample::opening(candidates, 16, apart, 5), best) << apart;
+    }
+}
+
 TEST(Candidates, StayInOrderWhenSomeAreDropped) {
     Candidates candidates = clumps(100, 12);
     const Candidates before = candidates;

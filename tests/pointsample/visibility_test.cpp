@@ -183,4 +183,18 @@ TEST(HiddenTest, APointStaysIfItIsSeenInAnyPose) {
     }
 }
 
+// In its second pose the shell has grown with what is in it.
+TEST(HiddenTest, EveryPoseHidesItsOwnPoints) {
+    motion::Mesh mesh = tests::make_sphere(1, 3);
+    const std::size_t shell = mesh.triangle_count();
+    tests::append(mesh, tests::make_sphere(0.5f, 2));
+    std::vector<pointsample::PosedMesh> poses(2, {mesh.positions, mesh.normals});
+    for (glm::vec3& position : poses[1].positions) position *= 10.0f;
+    const pointsample::Surface surface(mesh.indices, poses);
+    std::vector<motion::SurfacePoint> points;
+    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) points.push_back({t, 0.3f, 0.3f});
+    const std::vector<char> seen = pointsample::HiddenTest(surface, false).visible(points);
+    for (std::size_t t = 0; t < points.size(); ++t) EXPECT_EQ(seen[t] != 0, t < shell) << t;
+}
+
 }  // namespace
