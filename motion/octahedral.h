@@ -1,4 +1,5 @@
-// Unit vectors in two bytes (Cigolle et al. 2014, "A survey of efficient representations for independent unit vectors").
+// Unit vectors in two bytes (Cigolle et al. 2014, "A survey of efficient representations for independent unit
+// vectors").
 #pragma once
 
 #include <cstdint>
