@@ -80,6 +80,18 @@ TEST(Coverage, FallsAndEndsWithAllPoints) {
     }
 }
 
+// Beyond what is measured it is reckoned from independent points' law.
+TEST(Coverage, OfManyIndependentPointsIsNearlyWhatTheyHave) {
+    constexpr std::size_t count = 160'000;
+    constexpr double scatter = 1.25;  // the farthest of all spots differs from sample to sample
+    const motion::Mesh mesh = tests::make_ball();
+    const pointsample::PosedMesh rest{mesh.positions, mesh.normals};
+    const PointModel model = pointsample::sample(mesh, {&rest, 1}, {count, 1, Order::uniform, false});
+    const double found = covering_radius(tests::sample_of(model, mesh), count, mesh);
+    EXPECT_LT(static_cast<double>(model.coverage.back().radius), found * scatter);
+    EXPECT_GT(static_cast<double>(model.coverage.back().radius), found / scatter);
+}
+
 TEST(Coverage, MarksAreHalfOctaves) {
     using Marks = std::vector<std::uint32_t>;
     EXPECT_EQ(pointsample::coverage_marks(1), Marks({1}));

@@ -299,4 +299,27 @@ TEST(Stratifier, PlacesInLargeTrianglesAndInTinyOnesAreUniform) {
     expect_uniform_in_triangles(5, 700, 57);  // a dozen triangles to a candidate
 }
 
+TEST(Stratifier, ThePlaceInATriangleIsIndependentOfWhichItIs) {
+    const motion::Mesh mesh = tests::make_sphere(1, 0);  // eight equal triangles, of which one is drawn
+    const PosedMesh pose{mesh.positions, mesh.normals};
+    const Surface surface(mesh.indices, {&pose, 1});
+    constexpr double few = 500, five_deviations = 5 * 0.236;  // of a corner's share
+    std::vector<glm::dvec3> sums(mesh.triangle_count(), glm::dvec3(0));
+    std::vector<double> counts(mesh.triangle_count());
+    for (std::uint64_t seed = 1; seed <= 6000; ++seed) {
+        const motion::SurfacePoint point = candidates_of(surface, 1, seed, 1).surface[0];
+        const double u = static_cast<double>(point.u), v = static_cast<double>(point.v);
+        sums[point.triangle] += glm::dvec3(1 - u - v, u, v);
+        ++counts[point.triangle];
+    }
+    int told = 0;
+    for (std::size_t t = 0; t < counts.size(); ++t) {
+        if (counts[t] < few) continue;  // a candidate stays near the middle of its part of the line
+        for (int k = 0; k < 3; ++k)
+            EXPECT_NEAR(sums[t][k] / counts[t], 1.0 / 3, five_deviations / std::sqrt(counts[t]));
+        ++told;
+    }
+    EXPECT_GE(told, 3);
+}
+
 }  // namespace
