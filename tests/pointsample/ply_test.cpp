@@ -113,8 +113,9 @@ TEST_F(Ply, SixteenBitColorsAreScaled) {
         "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty "
         "ushort "
         "red\nproperty ushort green\nproperty ushort blue\nelement face 1\nproperty list uchar int vertex_indices\n"
-        "end_header\n0 0 0 65535 257 0\n1 0 0 0 0 0\n0 1 0 0 0 0\n3 0 1 2");
+        "end_header\n0 0 0 65535 257 0\n1 0 0 32896 514 65278\n0 1 0 0 0 0\n3 0 1 2");
     EXPECT_EQ(mesh.colors[0], glm::u8vec4(255, 1, 0, 255));
+    EXPECT_EQ(mesh.colors[1], glm::u8vec4(128, 2, 254, 255));
 }
 
 // Coordinates, corners and the lengths of lists in a type of either name.
