@@ -170,9 +170,10 @@ TEST_F(Obj, AColorMultipliesItsTextureUnlessItIsBlack) {
 
 TEST_F(Obj, MaterialsMultiplyVertexColorsAsLight) {
     folder_.write("a.mtl", "newmtl a\nKd 0.73725 0.5 1\n");  // sRGB's codes 188 (half of the light), 128 and 255
-    const Mesh mesh = load("mtllib a.mtl\nv 0 0 0 0.73725 1 0.2\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
+    const Mesh mesh = load("mtllib a.mtl\nv 0 0 0 0.73725 1 0.2\nv 1 0 0\nv 0 1 0 1 0.4 1\nusemtl a\nf 1 2 3\n");
     EXPECT_EQ(mesh.colors[0], glm::u8vec4(138, 128, 51, 255));  // half of half the light
     EXPECT_EQ(mesh.colors[1], glm::u8vec4(188, 128, 255, 255));
+    EXPECT_EQ(mesh.colors[2], glm::u8vec4(188, 47, 255, 255));  // 13.3 % times 21.6 % of the light
 }
 
 TEST_F(Obj, NegativeIndicesCountFromWhatIsReadSoFar) {

@@ -155,6 +155,11 @@ TEST(PointsFile, PointsWithoutWeightsFollowTheirFirstJoint) {
 
 // --- That it stays so
 
+TEST(PointsFile, AsStoredIsWhatIsReadBack) {
+    const PointModel model = tests::random_model(3000, 16);
+    expect_same_bits(pointsample::as_stored(model), read_back(written(model)));
+}
+
 TEST(PointsFile, WrittenAgainTheBitsAreTheSame) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         const std::string once = written(tests::random_model(1 + 400 * seed, seed));
