@@ -61,6 +61,7 @@ private:
         }
         if (std::max({h[0].z, h[1].z, h[2].z}) < Camera::near) return;
         if (behind) low = {0, 0}, high = {camera_.width, camera_.height};
+        if (high.x < -1 || high.y < -1 || low.x > camera_.width + 1 || low.y > camera_.height + 1) return;
         const double determinant = glm::dot(h[0], glm::cross(h[1], h[2]));
         // Pixels count downward, so counter-clockwise is negative.
         if (determinant == 0 || (determinant > 0 && !two_sided)) return;
