@@ -45,7 +45,13 @@ public:
     }
 
 private:
-    // Calls `shade(b)` for each place that the triangle is nearest in, with its corners' shares b there.
+    // Where on a triangle a place is: its corners' shares there, a pixel to the right and a pixel below.
+    struct Spot {
+        glm::dvec3 share, right, below;
+        bool centre;  // of a pixel
+    };
+
+    // Calls `shade(spot)` for each place that the triangle is nearest in.
     template <typename ShadeOf>
     void triangle(const std::array<glm::dvec3, 3>& corners, bool two_sided, ShadeOf shade) {
         // Homogeneous pixel coordinates: x and y times depth, and depth (Olano and Greer 1997). No corner need be in
@@ -81,8 +87,8 @@ private:
                 if (!(depth >= Camera::near)) continue;
                 put(x, y, place, depth, true, [&] {
                     const glm::dvec3 right = at(px + 1, py), down = at(px, py + 1);
-                    return shade(over_depth * depth, right / (right.x + right.y + right.z),
-                                 down / (down.x + down.y + down.z));
+                    return shade(Spot{over_depth * depth, right / (right.x + right.y + right.z),
+                                      down / (down.x + down.y + down.z), place == 0});
                 });
             }
         });
@@ -134,13 +140,10 @@ private:
         picture_.shades[pixel].push_back(shade);
     }
 
-    // Turned so that what faces +z faces (sin yaw, 0, cos yaw).
-    static glm::dvec3 turned(const Person& person, const glm::dvec3& v) {
+    // The model's axes in the world: what faces +z there faces (sin yaw, 0, cos yaw).
+    static glm::dmat3 axes_of(const Person& person) {
         const glm::dvec3 ahead(std::sin(person.yaw), 0, std::cos(person.yaw)), up(0, 1, 0);
-        return v.x * glm::cross(up, ahead) + v.y * up + v.z * ahead;
-    }
-    glm::dvec3 placed(const Person& person, const glm::dvec3& model) const {
-        return person.origin - camera_.position + person.scale * turned(person, model);
+        return {glm::cross(up, ahead), up, ahead};
     }
 
     static glm::dvec3 linear(const glm::u8vec4& color) {
@@ -175,34 +178,35 @@ private:
     void draw_mesh(const Person& person) {
         const motion::Mesh& mesh = person.figure->mesh();
         const Surface& surface = person.figure->pose(person.slot, person.tick);
+        const glm::dmat3 axes = axes_of(person);
+        const glm::dvec3 origin = person.origin - camera_.position;
         std::vector<glm::dvec3> at, albedo;
         std::vector<Shade> light;
         for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
-            at.push_back(placed(person, surface.positions[v]));
+            at.push_back(origin + person.scale * (axes * surface.positions[v]));
             albedo.push_back(linear(mesh.colors[v]) * tint_of(person, mesh.tints[v]));
-            light.push_back(light_seen(turned(person, surface.normals[v]), at[v], mesh.double_sided));
+            light.push_back(light_seen(axes * surface.normals[v], at[v], mesh.double_sided));
         }
         for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
             const std::uint32_t a = mesh.indices[i], b = mesh.indices[i + 1], c = mesh.indices[i + 2];
-            triangle(
-                {at[a], at[b], at[c]}, mesh.double_sided,
-                [&](const glm::dvec3& share, const glm::dvec3& right, const glm::dvec3& down) {
-                    const auto blend = [&](const auto& x, const auto& y, const auto& z, const glm::dvec3& by) {
-                        return by.x * x + by.y * y + by.z * z;
-                    };
-                    const auto uv = [&](const glm::dvec3& by) {
-                        return blend(glm::dvec2(mesh.uvs[a]), glm::dvec2(mesh.uvs[b]), glm::dvec2(mesh.uvs[c]), by);
-                    };
-                    Shade texel = Shade::exactly(glm::dvec3(1));
-                    if (mesh.texture_ids[c] != motion::no_texture)
-                        texel =
-                            texels(mesh, mesh.texture_ids[c], uv(share), uv(right) - uv(share), uv(down) - uv(share));
-                    const glm::dvec3 own = blend(albedo[a], albedo[b], albedo[c], share);
-                    return Shade::between(
-                        stored(own * texel.low * texel.low * blend(light[a].low, light[b].low, light[c].low, share)),
-                        stored(own * texel.high * texel.high *
-                               blend(light[a].high, light[b].high, light[c].high, share)));
-                });
+            triangle({at[a], at[b], at[c]}, mesh.double_sided, [&](const Spot& spot) {
+                const auto blend = [](const auto& x, const auto& y, const auto& z, const glm::dvec3& by) {
+                    return by.x * x + by.y * y + by.z * z;
+                };
+                const auto uv = [&](const glm::dvec3& by) {
+                    return blend(glm::dvec2(mesh.uvs[a]), glm::dvec2(mesh.uvs[b]), glm::dvec2(mesh.uvs[c]), by);
+                };
+                Shade texel = Shade::exactly(glm::dvec3(1));
+                if (mesh.texture_ids[c] != motion::no_texture) {
+                    const glm::dvec2 here = uv(spot.share);
+                    texel = texels(mesh, mesh.texture_ids[c], here, uv(spot.right) - here, uv(spot.below) - here);
+                }
+                const glm::dvec3 own = blend(albedo[a], albedo[b], albedo[c], spot.share);
+                return Shade::between(
+                    stored(own * texel.low * texel.low * blend(light[a].low, light[b].low, light[c].low, spot.share)),
+                    stored(own * texel.high * texel.high *
+                           blend(light[a].high, light[b].high, light[c].high, spot.share)));
+            });
         }
     }
 
@@ -286,6 +290,7 @@ private:
         const Surface& surface = person.figure->pose(person.slot, person.tick);
         const std::vector<Figure::Look>& looks = person.figure->looks(person.points);
         const bool both_sides = mesh.double_sided || person.points <= few;
+        const glm::dmat3 axes = axes_of(person);
         for (std::size_t p = 0; p < person.points; ++p) {
             const motion::SurfacePoint& spot = person.figure->points().surface[p];
             glm::dvec3 position(0), normal(0);
@@ -295,8 +300,8 @@ private:
                 position += share[corner] * surface.positions[vertex];
                 normal += share[corner] * surface.normals[vertex];
             }
-            const glm::dvec3 at = placed(person, position);
-            const glm::dvec3 facing = turned(person, glm::normalize(normal));
+            const glm::dvec3 at = person.origin - camera_.position + person.scale * (axes * position);
+            const glm::dvec3 facing = axes * glm::normalize(normal);
             const double away = glm::dot(facing, glm::normalize(at));
             if (!both_sides && away > edge_on) continue;
             glm::dvec3 tint(0);
@@ -342,17 +347,17 @@ private:
             for (std::size_t k = 0; k < 3; ++k) at[k] = glm::dvec3(corner[k]->position) - camera_.position;
             const bool is_ground = corner[2]->color.a == static_cast<std::uint8_t>(scene::Surface::ground);
             const glm::dvec3 painted = stored(linear(corner[2]->color) * light_on(corner[2]->normal));
-            triangle(at, false, [&](const glm::dvec3& share, const glm::dvec3& right, const glm::dvec3& down) {
+            triangle(at, false, [&](const Spot& spot) {
                 if (!is_ground) return Shade::exactly(painted);
                 const auto xz = [&](const glm::dvec3& by) {
                     const glm::dvec3 world = camera_.position + by.x * at[0] + by.y * at[1] + by.z * at[2];
                     return glm::dvec2(world.x, world.z);
                 };
-                const glm::dvec2 here = xz(share);
-                const glm::dvec2 to_right = xz(right) - here, to_below = xz(down) - here;
+                const glm::dvec2 here = xz(spot.share);
+                const glm::dvec2 to_right = xz(spot.right) - here, to_below = xz(spot.below) - here;
                 const glm::dvec2 footprint = glm::abs(to_right) + glm::abs(to_below);
                 Shade shown = ground(scene_, here, footprint_share * std::max(footprint.x, footprint.y));
-                shown.best = ground_seen(scene_, here, to_right, to_below);
+                if (spot.centre) shown.best = ground_seen(scene_, here, to_right, to_below);
                 return shown;
             });
         }
