@@ -3,11 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "render/frame.h"
 #include "tests/apps/compositor.h"
 #include "tests/apps/environment.h"
 #include "tests/apps/xvfb.h"
@@ -149,9 +151,43 @@ protected:
         return commands;
     }
 
+    // Polls until `done` says so of what came; false: it never did.
+    template <typename Done>
+    bool poll_until(Done done) {
+        constexpr int most_turns = 100'000;  // each waits for the server's answer
+        for (int turn = 0; turn < most_turns; ++turn) {
+            if (done(window_->poll())) return true;
+            XSync(display_, False);
+        }
+        return false;
+    }
+
+    void sync() const { XSync(display_, False); }
+    void press(KeySym key) { send(KeyPress, key, 0); }
+    void release(KeySym key) { send(KeyRelease, key, 0); }
+    void press_button(unsigned int button) { send_button(ButtonPress, button); }
+    void release_button(unsigned int button) { send_button(ButtonRelease, button); }
+    void move_pointer(int x, int y) {
+        XWarpPointer(display_, 0, x_window_, 0, 0, 0, 0, x, y);
+        XSync(display_, False);
+    }
+
     std::optional<render::Window> window_;
 
 private:
+    void send_button(int type, unsigned int button) {
+        XEvent event{};
+        event.xbutton.type = type;
+        event.xbutton.display = display_;
+        event.xbutton.window = x_window_;
+        event.xbutton.root = DefaultRootWindow(display_);
+        event.xbutton.same_screen = True;
+        event.xbutton.button = button;
+        event.xbutton.time = ++now_;
+        XSendEvent(display_, x_window_, True, ButtonPressMask | ButtonReleaseMask, &event);
+        XSync(display_, False);
+    }
+
     void send(int type, KeySym key, unsigned int modifiers) {
         XEvent event{};
         event.xkey.type = type;
@@ -190,11 +226,91 @@ TEST_F(WindowKeys, PlusAndMinusRepeatAndAreWhatIsTyped) {
     EXPECT_EQ(commands(), std::vector<Command>(3, Command::lower_target));
 }
 
+TEST_F(WindowKeys, HeldKeysSteerUntilTheyAreLetGo) {
+    struct {
+        KeySym key;
+        float render::Input::*axis;
+        float value;
+    } const keys[] = {{XK_w, &render::Input::forward, 1}, {XK_s, &render::Input::forward, -1},
+                      {XK_d, &render::Input::right, 1},   {XK_a, &render::Input::right, -1},
+                      {XK_e, &render::Input::up, 1},      {XK_q, &render::Input::up, -1}};
+    for (const auto& [key, axis, value] : keys) {
+        press(key);
+        EXPECT_TRUE(poll_until([&](const render::Input& input) { return input.*axis == value; }))
+            << XKeysymToString(key);
+        const render::Input held = window_->poll();
+        EXPECT_EQ(std::abs(held.forward) + std::abs(held.right) + std::abs(held.up), 1) << XKeysymToString(key);
+        EXPECT_FALSE(held.hurry);
+        release(key);
+        EXPECT_TRUE(poll_until([&](const render::Input& input) { return input.*axis == 0; })) << XKeysymToString(key);
+    }
+    for (const KeySym shift : {XK_Shift_L, XK_Shift_R}) {
+        press(shift);
+        EXPECT_TRUE(poll_until([](const render::Input& input) { return input.hurry; }));
+        release(shift);
+        EXPECT_TRUE(poll_until([](const render::Input& input) { return !input.hurry; }));
+    }
+}
+
+TEST_F(WindowKeys, DraggingTellsHowFarAndMovingAloneDoesNot) {
+    for (const unsigned int button : {Button1, Button3}) {
+        move_pointer(10, 30);
+        window_->poll();
+        move_pointer(20, 20);
+        const render::Input moved = window_->poll();
+        EXPECT_EQ(moved.look_x, 0);
+        EXPECT_EQ(moved.look_y, 0);
+        press_button(button);
+        double x = 0, y = 0;
+        // The first poll that sees the button held begins the drag, wherever the pointer is.
+        const auto add = [&](const render::Input& input) {
+            x += input.look_x;
+            y += input.look_y;
+            return x != 0 || y != 0;
+        };
+        for (int turn = 0; turn < 100; ++turn) {
+            add(window_->poll());
+            sync();
+        }
+        EXPECT_EQ(x, 0);
+        move_pointer(35, 14);
+        EXPECT_TRUE(poll_until(add));
+        EXPECT_EQ(x, 15);
+        EXPECT_EQ(y, -6);
+        release_button(button);
+        window_->poll();
+        x = y = 0;
+    }
+}
+
 TEST_F(WindowKeys, EscapeClosesIt) {
     EXPECT_FALSE(window_->closed());
     hold(XK_Escape, 0, 1);
     commands();
     EXPECT_TRUE(window_->closed());
+}
+
+// The renderer's target reaches the window the right way up and, in a window of its size, pixel by pixel.
+TEST_F(WindowKeys, ShowsWhatWasDrawn) {
+    const scene::StaticMesh nothing{{{}, {}, {}}, {0, 0, 0}, {}};
+    render::Renderer renderer(nothing, {}, {}, window_->width(), window_->height());
+    // The sun's glow is in the upper left.
+    const render::View view = render::make_view({{0, 0, 0}, {0.2, 0.1, 1.0}, 1.2}, window_->width(), window_->height());
+    renderer.draw(view, {}, 0);
+    const render::Image drawn = renderer.read_image();
+    renderer.present(window_->width(), window_->height());
+    std::vector<std::uint8_t> shown(drawn.pixels.size());
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, drawn.width, drawn.height, GL_RGB, GL_UNSIGNED_BYTE, shown.data());
+    const auto stride = static_cast<std::size_t>(3 * drawn.width);
+    int wrong = 0;
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+        const std::size_t row = static_cast<std::size_t>(drawn.height) - 1 - i / stride;  // GL's come from the bottom
+        wrong += std::abs(shown[i] - drawn.pixels[row * stride + i % stride]) > 1;
+    }
+    EXPECT_EQ(wrong, 0);
+    EXPECT_NE(drawn.pixels.front(), drawn.pixels.back()) << "a picture of one colour shows nothing";
 }
 
 }  // namespace
