@@ -1,5 +1,5 @@
 // Structure: the vertices' colour. GROUND: grass, markings, track and paving from the place alone, each line faded by
-// how many of its widths a pixel covers, so that none of it shimmers when it is far.
+// how many of its widths a pixel covers across it, so that none of it shimmers when it is far.
 out vec4 color;
 
 #ifndef GROUND
@@ -20,42 +20,55 @@ const float line_half_width = 0.06;        // [m]
 const float lane_width = 1.22;             // [m]
 const float lane_count = 8.0;
 
-float pixel;  // [m] one pixel's footprint here
+vec2 pixel_x, pixel_y;  // [m] from here to the next pixel's ground, to the right and up
 
-// Coverage in [0, 1] of a line of the given half width at signed distance d [m].
-float line(float d, float half_width) {
-    float w = max(half_width, 0.5 * pixel);
-    return clamp((w - abs(d)) / pixel + 0.5, 0.0, 1.0) * half_width / w;
+// A line's or an area's edge: signed distance [m], then its gradient, the unit direction across it.
+float across(vec3 edge) { return max(abs(dot(edge.yz, pixel_x)) + abs(dot(edge.yz, pixel_y)), 1e-4); }  // [m] a pixel
+
+vec3 edge_x(float distance) { return vec3(distance, 1.0, 0.0); }
+vec3 edge_z(float distance) { return vec3(distance, 0.0, 1.0); }
+vec3 circle(vec2 p, float radius) {
+    float r = max(length(p), 1e-6);
+    return vec3(r - radius, p / r);
 }
-float inside(float d) { return clamp(0.5 - d / pixel, 0.0, 1.0); }
-float box(vec2 p, vec2 half_size) {
+vec3 box(vec2 p, vec2 half_size) {
     vec2 q = abs(p) - half_size;
-    return max(q.x, q.y);
+    return q.x > q.y ? edge_x(q.x) : edge_z(q.y);
 }
+vec3 outset(vec3 edge, float by) { return vec3(edge.x - by, edge.yz); }
+
+// Coverage in [0, 1] of a line along an edge: as dark as it is thin, where a pixel is wider.
+float line(vec3 edge, float half_width) {
+    float pixel = across(edge);
+    float w = max(half_width, 0.5 * pixel);
+    return clamp((w - abs(edge.x)) / pixel + 0.5, 0.0, 1.0) * half_width / w;
+}
+float inside(vec3 edge) { return clamp(0.5 - edge.x / across(edge), 0.0, 1.0); }
 
 // A box that reaches `depth` into the pitch from the goal line.
-float goal_box(vec2 m, float depth, float half_width) {
+vec3 goal_box(vec2 m, float depth, float half_width) {
     return box(m - vec2(pitch_half.x - 0.5 * depth, 0.0), vec2(0.5 * depth, half_width));
 }
 
 float markings(vec2 p) {
     vec2 m = vec2(abs(p.x), p.y);  // both halves are alike
-    vec2 from_mark = m - vec2(pitch_half.x - penalty_mark, 0.0);
-    float on_pitch = inside(box(p, pitch_half) - line_half_width);
+    vec2 from_mark = vec2(p.x - sign(p.x) * (pitch_half.x - penalty_mark), p.y);
+    float on_pitch = inside(outset(box(p, pitch_half), line_half_width));
     float marks = line(box(p, pitch_half), line_half_width);
-    marks = max(marks, line(p.x, line_half_width));
-    marks = max(marks, line(length(p) - circle_radius, line_half_width));
+    marks = max(marks, line(edge_x(p.x), line_half_width));
+    marks = max(marks, line(circle(p, circle_radius), line_half_width));
     marks = max(marks, line(goal_box(m, penalty_depth, penalty_half_width), line_half_width));
     marks = max(marks, line(goal_box(m, goal_area_depth, goal_area_half_width), line_half_width));
-    float arc = line(length(from_mark) - circle_radius, line_half_width);
+    float arc = line(circle(from_mark, circle_radius), line_half_width);
     marks = max(marks, m.x < pitch_half.x - penalty_depth ? arc : 0.0);
-    marks = max(marks, inside(length(from_mark) - mark_radius));
-    marks = max(marks, inside(length(p) - mark_radius));
+    marks = max(marks, inside(circle(from_mark, mark_radius)));
+    marks = max(marks, inside(circle(p, mark_radius)));
     return marks * on_pitch;
 }
 
 vec3 grass(vec2 p) {
     const float stripe = 5.25;  // [m] twenty mown stripes on a pitch
+    float pixel = across(edge_x(p.x));
     float mown = clamp(0.5 + sin(p.x * 3.14159265 / stripe) / max(pixel, 0.05), 0.0, 1.0);
     mown = mix(mown, 0.5, clamp(pixel / stripe, 0.0, 1.0));
     return mix(vec3(0.050, 0.150, 0.030), vec3(0.068, 0.190, 0.040), mown);
@@ -64,25 +77,26 @@ vec3 grass(vec2 p) {
 vec3 paving(vec2 p) {
     const float slab = 8.0;  // [m]
     vec2 joint = abs(fract(p / slab + 0.5) - 0.5) * slab;
-    float joints = max(line(joint.x, 0.05), line(joint.y, 0.05));
+    float joints = max(line(edge_x(joint.x), 0.05), line(edge_z(joint.y), 0.05));
     return mix(vec3(0.26, 0.25, 0.235), vec3(0.19, 0.185, 0.18), joints);
 }
 
 void main() {
-    vec2 footprint = fwidth(ground);
-    pixel = max(max(footprint.x, footprint.y), 1e-4);
-    vec2 beyond = vec2(max(abs(ground.x) - Frame.oval.x, 0.0), ground.y);
-    float offset = length(beyond) - Frame.oval.y;  // [m] outward from the track's inner line
+    pixel_x = dFdx(ground);
+    pixel_y = dFdy(ground);
+    // Outward from the track's inner line.
+    vec2 beyond = vec2(sign(ground.x) * max(abs(ground.x) - Frame.oval.x, 0.0), ground.y);
+    vec3 track_edge = circle(beyond, Frame.oval.y);
 
     vec3 surface = mix(grass(ground), vec3(0.80), markings(ground));
-    float track = inside(-offset) * inside(offset - lane_count * lane_width);
-    float lane = offset - lane_width * round(offset / lane_width);
+    float track = inside(-track_edge) * inside(outset(track_edge, lane_count * lane_width));
+    vec3 lane = outset(track_edge, lane_width * round(track_edge.x / lane_width));
     vec3 tartan = mix(vec3(0.32, 0.075, 0.045), vec3(0.75), line(lane, 0.025));
-    float finish = line(ground.x - Frame.oval.x, 0.025) * float(ground.y > 0.0);
+    float finish = line(edge_x(ground.x - Frame.oval.x), 0.025) * float(ground.y > 0.0);
     surface = mix(surface, mix(tartan, vec3(0.75), finish), track);
-    float apron = inside(lane_count * lane_width - offset);
+    float apron = inside(-outset(track_edge, lane_count * lane_width));
     surface = mix(surface, vec3(0.10, 0.17, 0.20), apron);
-    surface = mix(surface, paving(ground), inside(Frame.oval.z - offset));
+    surface = mix(surface, paving(ground), inside(-outset(track_edge, Frame.oval.z)));
     vec3 light = Frame.sky_light.rgb + Frame.sun_color.rgb * Frame.sun_direction.y;
     color = vec4(sqrt(surface * light), 1.0);
 }
