@@ -116,8 +116,11 @@ inline int wait_for(pid_t pid) {
 // One byte; nothing at the end or where none comes in time.
 inline std::optional<char> read_byte(int descriptor) {
     pollfd source{descriptor, POLLIN, 0};
+    int ready = -1;
+    do ready = poll(&source, 1, 1000 * wait_limit);  // a handled signal interrupts it, whatever SA_RESTART says
+    while (ready < 0 && errno == EINTR);
     char byte = 0;
-    if (poll(&source, 1, 1000 * wait_limit) > 0 && read(descriptor, &byte, 1) == 1) return byte;
+    if (ready > 0 && read(descriptor, &byte, 1) == 1) return byte;
     return std::nullopt;
 }
 
