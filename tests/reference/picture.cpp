@@ -328,13 +328,14 @@ private:
         const double side = std::clamp(whole, 1.0, std::max(1.0, scene_.splat_size));
         // Software rasterisers round squares to whole pixels.
         constexpr double exact = 1e-3;
-        const double least = std::floor(side + exact) / 2, most = std::ceil(side - exact) / 2;
+        // Each square is snapped by itself: two whose edges meet may overlap, or leave a line open between them.
+        const double least = std::floor(side + exact) / 2 - off, most = std::ceil(side - exact) / 2 + off;
         for_each_pixel(middle - most, middle + most, [&](int x, int y) {
-            for (std::size_t place = 0; place < places.size(); ++place) {
-                const glm::dvec2 away = glm::abs(glm::dvec2(x + 0.5, y + 0.5) + places[place] - middle);
-                const double reach = std::max(away.x, away.y);
-                if (reach < most) put(x, y, place, h.z, certain && reach < least, [&] { return shade; });
-            }
+            const glm::dvec2 away = glm::abs(glm::dvec2(x + 0.5, y + 0.5) - middle);
+            const double reach = std::max(away.x, away.y);
+            if (reach >= most) return;
+            for (std::size_t place = 0; place < places.size(); ++place)
+                put(x, y, place, h.z, certain && reach < least, [&] { return shade; });
         });
     }
 

@@ -51,7 +51,8 @@ struct Comparison {
     std::string text() const;
 };
 
-inline constexpr double tolerance = 4;  // [of 255] two for packed normals, one for bytes of looks, a half for rounding
+inline constexpr double tolerance =
+    5;  // [of 255] three for packed normals, one and a half for bytes of looks, rounding
 
 Comparison compare(const render::Image& image, const Picture& picture);
 
