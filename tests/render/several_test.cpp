@@ -1,0 +1,202 @@
+// Several characters in one crowd: each is chosen and priced as if theirs were the only one, whatever the units of
+// their models.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <set>
+#include <string>
+#include <tuple>
+
+#include "render/select.h"
+#include "tests/render/lone_person.h"
+
+namespace {
+
+using render::Selector;
+using sfsm::Decision;
+using sfsm::State;
+
+constexpr int rows = 60;
+constexpr float row_pitch = 3.0f;  // [m]
+
+// The same character from a file whose units are `per_metre` to a metre.
+motion::Character in_units(motion::Character character, float per_metre) {
+    for (glm::vec3& position : character.mesh.positions) position *= per_metre;
+    for (float& value : character.clips[0].channels[0].values) value *= per_metre;
+    return character;
+}
+
+// Somebody every few metres, `aside` of the others; all columns reach equally far.
+tests::LonePeople column(motion::Character character, float aside, std::size_t point_count, float gait_speed) {
+    std::vector<glm::vec3> places;
+    for (int i = 0; i < rows; ++i) places.emplace_back(aside, 0, -4.0f - row_pitch * static_cast<float>(i));
+    tests::LonePeople people(std::move(character), places, point_count);
+    people.cast[0].gait_speed[static_cast<int>(scene::Role::walker)] = gait_speed;
+    return people;
+}
+
+// Alike in nothing: size, speed, length of the clip, triangles, points, units.
+std::vector<tests::LonePeople> columns() {
+    std::vector<tests::LonePeople> all;
+    all.push_back(column(tests::make_lift(0.25f, 0.8f, 4, 8), -0.7f, 300, 1.4f));
+    all.push_back(column(in_units(tests::make_lift(0.15f, 0.3f, 2.5, 3), 100), 0, 40, 1.1f));
+    all.push_back(column(tests::make_lift(0.4f, 1.5f, 7, 12), 0.9f, 600, 3.0f));
+    return all;
+}
+
+struct Together {
+    scene::Crowd crowd;
+    std::vector<render::Figure> figures;
+
+    explicit Together(const std::vector<tests::LonePeople>& parts) {
+        for (const tests::LonePeople& part : parts) {
+            const auto character = static_cast<std::uint8_t>(figures.size());
+            figures.push_back(part.figures()[0]);
+            for (std::size_t i = 0; i < part.crowd.size(); ++i) {
+                crowd.blocks.push_back({static_cast<std::uint32_t>(crowd.size()), 1, part.crowd.blocks[i].box});
+                crowd.position.push_back(part.crowd.position[i]);
+                crowd.yaw.push_back(part.crowd.yaw[i]);
+                crowd.height.push_back(part.crowd.height[i]);
+                crowd.character.push_back(character);
+                crowd.role.push_back(part.crowd.role[i]);
+                crowd.hash.push_back(part.crowd.hash[i]);
+                crowd.palette.push_back(part.crowd.palette[i]);
+            }
+        }
+    }
+};
+
+using Drawn = std::multiset<std::tuple<std::size_t, std::uint32_t, std::uint32_t, std::string>>;
+
+void add(Drawn& drawn, std::size_t first_character, const render::Selection& selection) {
+    for (const render::Batch& batch : selection.batches) {
+        for (std::uint32_t i = 0; i < batch.instance_count; ++i) {
+            std::string bytes(sizeof(render::Instance), '\0');
+            std::memcpy(bytes.data(), &selection.instances[batch.first_instance + i], bytes.size());
+            drawn.insert({first_character + batch.character, batch.pose, batch.points, bytes});
+        }
+    }
+}
+
+render::View along_the_columns() {
+    return render::make_view({{0, 0.9, 0}, {0, 0.9, -1}, 0.9}, 640, 360);
+}
+
+TEST(Several, AreDrawnAsEachWouldBeAlone) {
+    std::vector<tests::LonePeople> parts = columns();
+    for (tests::LonePeople& part : parts) {
+        for (std::size_t i = 0; i < part.crowd.size(); i += 3) {
+            part.crowd.role[i] = scene::Role::walker;
+            part.crowd.position[i] = {1, 0, 2 * static_cast<float>(i)};  // the lane's offset, and the arc
+            part.crowd.blocks[i].box = {glm::vec3(-200), glm::vec3(200)};
+        }
+    }
+    const Together all(parts);
+    Selector selector(all.crowd, all.figures);
+    const render::View view = render::make_view({{-30, 30, 100}, {-27, 22, 70}, 1.2}, 640, 360);
+    for (const Decision& decision : {Decision{}, Decision{State::slowed, 10, 0}, Decision{State::points, 10, 1},
+                                     Decision{State::points, 40, 4}, Decision{State::points, 40, 20}}) {
+        selector.survey(view, 777);
+        const render::Selection& together = selector.select(decision, 776);
+        Drawn drawn, expected;
+        sfsm::Work work;
+        add(drawn, 0, together);
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            Selector alone(parts[i].crowd, parts[i].figures());
+            alone.survey(view, 777);
+            const render::Selection& selection = alone.select(decision, 776);
+            EXPECT_GT(selection.work.people, rows / 2);
+            add(expected, i, selection);
+            work.people += selection.work.people;
+            work.triangles += selection.work.triangles;
+            work.points += selection.work.points;
+            work.motion_updates += selection.work.motion_updates;
+        }
+        EXPECT_EQ(drawn, expected);
+        EXPECT_EQ(together.work, work);
+    }
+}
+
+TEST(Several, AreForecastAsEachWouldBeAlone) {
+    const std::vector<tests::LonePeople> parts = columns();
+    const Together all(parts);
+    Selector selector(all.crowd, all.figures);
+    const sfsm::Forecast together = selector.survey(along_the_columns(), 100).forecast;
+    std::vector<sfsm::SplatStep> splats(together.splats.size());
+    std::vector<sfsm::MotionStep> motion(together.motion.size());
+    for (const tests::LonePeople& part : parts) {
+        Selector alone(part.crowd, part.figures());
+        const sfsm::Forecast forecast = alone.survey(along_the_columns(), 100).forecast;
+        ASSERT_EQ(forecast.people, rows);
+        const double share = 1.0 / static_cast<double>(parts.size());  // there are as many of each
+        for (std::size_t i = 0; i < splats.size(); ++i) {
+            splats[i].triangles += forecast.splats[i].triangles;
+            splats[i].points += forecast.splats[i].points;
+            splats[i].loss_px += share * forecast.splats[i].loss_px;
+        }
+        for (std::size_t i = 0; i < motion.size(); ++i) {
+            motion[i].updates += forecast.motion[i].updates;
+            motion[i].loss_px += share * forecast.motion[i].loss_px;
+        }
+    }
+    for (std::size_t i = 0; i < splats.size(); ++i) {
+        EXPECT_EQ(together.splats[i].triangles, splats[i].triangles) << "S = " << together.splats[i].size;
+        EXPECT_EQ(together.splats[i].points, splats[i].points) << "S = " << together.splats[i].size;
+        EXPECT_NEAR(together.splats[i].loss_px, splats[i].loss_px, 1e-9) << "S = " << together.splats[i].size;
+    }
+    constexpr double rounding = 2;  // each forecast's updates are whole
+    for (std::size_t i = 0; i < motion.size(); ++i) {
+        const auto updates = static_cast<double>(together.motion[i].updates);
+        EXPECT_NEAR(updates, static_cast<double>(motion[i].updates), rounding) << "D = " << together.motion[i].distance;
+        EXPECT_NEAR(together.motion[i].loss_px, motion[i].loss_px, 1e-9) << "D = " << together.motion[i].distance;
+    }
+}
+
+TEST(Units, OfAModelChangeNothingThatIsSeen) {
+    constexpr double bin_edge = 0.01;  // somebody may be counted in the next bin
+    const auto lift = tests::make_lift(0.25f, 0.8f, 4, 10);
+    const tests::LonePeople metres = column(lift, 0, 500, 1.4f);
+    for (const float per_metre : {0.04f, 100.0f}) {
+        const tests::LonePeople other = column(in_units(lift, per_metre), 0, 500, 1.4f);
+        Selector one(metres.crowd, metres.figures()), two(other.crowd, other.figures());
+        const sfsm::Forecast expected = one.survey(along_the_columns(), 100).forecast,
+                             found = two.survey(along_the_columns(), 100).forecast;
+        EXPECT_EQ(found.people, expected.people);
+        for (std::size_t i = 0; i < expected.splats.size(); ++i) {
+            const auto points = static_cast<double>(expected.splats[i].points),
+                       triangles = static_cast<double>(expected.splats[i].triangles);
+            const double either = bin_edge * (points + triangles);
+            EXPECT_NEAR(static_cast<double>(found.splats[i].points), points, either) << per_metre;
+            EXPECT_NEAR(static_cast<double>(found.splats[i].triangles), triangles, either) << per_metre;
+            EXPECT_NEAR(found.splats[i].loss_px, expected.splats[i].loss_px, bin_edge * (1 + expected.splats[i].size));
+        }
+        for (std::size_t i = 0; i < expected.motion.size(); ++i)
+            EXPECT_NEAR(found.motion[i].loss_px, expected.motion[i].loss_px, bin_edge * expected.motion[i].loss_px);
+        const render::Selection &fine = one.select({}, 99), &same = two.select({}, 99);
+        ASSERT_EQ(same.batches.size(), fine.batches.size());
+        for (std::size_t i = 0; i < fine.batches.size(); ++i) EXPECT_EQ(same.batches[i].pose, fine.batches[i].pose);
+    }
+}
+
+// Past the side of the picture, above and below it, by hand's breadths: a model's unit must not decide who is seen.
+TEST(Units, OfAModelDoNotDecideWhoIsSeen) {
+    const auto lift = tests::make_lift(0.25f, 0, 0.5, 1);
+    const glm::vec3 feet(0, 0, 0);
+    const tests::LonePeople metres(lift, {&feet, 1});
+    for (const float per_metre : {0.04f, 100.0f}) {
+        const tests::LonePeople other(in_units(lift, per_metre), {&feet, 1});
+        Selector one(metres.crowd, metres.figures()), two(other.crowd, other.figures());
+        int seen = 0, looks = 0;
+        for (double up = -1; up < 1; up += 0.0137) {
+            const render::View view = render::make_view({{0, 0.9, 6}, {0, 0.9 + 6 * up, 0}, 0.5}, 640, 360);
+            const std::int64_t people = one.survey(view, 0).forecast.people;
+            EXPECT_EQ(two.survey(view, 0).forecast.people, people) << "up " << up;
+            seen += people == 1;
+            ++looks;
+        }
+        EXPECT_GT(seen, looks / 4);
+        EXPECT_LT(seen, looks / 2 + looks / 4);
+    }
+}
+
+}  // namespace
