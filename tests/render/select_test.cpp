@@ -146,6 +146,39 @@ TEST(Selection, NeedsNoFrameBeforeIt) {
     EXPECT_TRUE(same_bits(after_others, select_once(view_of("still"), points_of(2))));
 }
 
+// Nor does what a view shows: neither its range, nor who is seen, nor any price.
+TEST(Survey, NeedsNoFrameBeforeIt) {
+    Selector selector(small_scene().crowd, small_scene().figures());
+    for (const char* preset : {"remote", "close", "medium", "still", "close"}) {
+        Selector fresh(small_scene().crowd, small_scene().figures());
+        const render::Survey &survey = selector.survey(view_of(preset), 100),
+                             &alone = fresh.survey(view_of(preset), 100);
+        EXPECT_EQ(survey.range, alone.range) << preset;
+        EXPECT_EQ(survey.forecast.people, alone.forecast.people) << preset;
+        EXPECT_TRUE(std::ranges::equal(survey.forecast.motion, alone.forecast.motion)) << preset;
+        EXPECT_TRUE(std::ranges::equal(survey.forecast.splats, alone.forecast.splats)) << preset;
+    }
+}
+
+TEST(Survey, OfNobodyCostsAndLosesNothing) {
+    Selector selector(small_scene().crowd, small_scene().figures());
+    const render::View up = render::make_view({{0, 200, 0}, {0, 300, 0}, 0.8}, 640, 360);
+    const render::Survey& survey = selector.survey(up, 100);
+    EXPECT_EQ(survey.range, 1);
+    EXPECT_EQ(survey.forecast.people, 0);
+    for (const sfsm::MotionStep& step : survey.forecast.motion) {
+        EXPECT_EQ(step.updates, 0);
+        EXPECT_EQ(step.loss_px, 0);
+    }
+    for (const sfsm::SplatStep& step : survey.forecast.splats) {
+        EXPECT_EQ(step.triangles + step.points, 0);
+        EXPECT_EQ(step.loss_px, 0);
+    }
+    const Selection& selection = selector.select(points_of(4), 99);
+    EXPECT_TRUE(selection.batches.empty() && selection.instances.empty());
+    EXPECT_EQ(selection.work, sfsm::Work{});
+}
+
 TEST(Selection, MovesEverybodyInStateZeroAndFewerTheNearerD) {
     const Selection all = select_once(view_of("still"), {});
     EXPECT_EQ(all.work.motion_updates, all.work.people);
@@ -232,15 +265,19 @@ TEST(Selection, HasOnlyThoseWhoHaveArrived) {
 }
 
 TEST(Forecast, CountsWhoMovesOnAverage) {
-    Selector selector(small_scene().crowd, small_scene().figures());
-    const sfsm::Forecast forecast = selector.survey(view_of("still"), 100).forecast;
-    for (const sfsm::MotionStep& step : forecast.motion) {
-        std::int64_t moved = 0;
-        constexpr std::int64_t ticks = 2 * motion::max_period;
-        for (std::int64_t tick = 100; tick < 100 + ticks; ++tick)
-            moved += select_at(selector, view_of("still"), {State::slowed, step.distance, 0}, tick).work.motion_updates;
-        const double mean = static_cast<double>(moved) / ticks;
-        EXPECT_NEAR(static_cast<double>(step.updates), mean, bin_error * mean) << "D = " << step.distance;
+    for (const float theta : {motion::default_theta, 3 * motion::default_theta}) {
+        Selector selector(small_scene().crowd, small_scene().figures(), {.theta = theta});
+        const sfsm::Forecast forecast = selector.survey(view_of("still"), 100).forecast;
+        for (const sfsm::MotionStep& step : std::vector(forecast.motion.begin(), forecast.motion.end())) {
+            std::int64_t moved = 0;
+            constexpr std::int64_t ticks = 2 * motion::max_period;
+            for (std::int64_t tick = 100; tick < 100 + ticks; ++tick)
+                moved +=
+                    select_at(selector, view_of("still"), {State::slowed, step.distance, 0}, tick).work.motion_updates;
+            const double mean = static_cast<double>(moved) / ticks;
+            EXPECT_NEAR(static_cast<double>(step.updates), mean, bin_error * mean)
+                << "theta = " << theta << ", D = " << step.distance;
+        }
     }
 }
 

@@ -123,6 +123,20 @@ TEST(View, KeepsCentimetresTwoKilometresOut) {
     EXPECT_NEAR(view.relative({2000.0f, 1.5f, -2000.0f}).x, -0.004f, 1e-4f);
 }
 
+// Steep as it may look, until a degree from the vertical the picture's vertical is the world's.
+TEST(View, KeepsTheHorizonLevel) {
+    for (double elevation = -89; elevation <= 89; elevation += 0.5) {
+        for (double azimuth = 0; azimuth < 360; azimuth += 29) {
+            const double e = glm::radians(elevation), a = glm::radians(azimuth);
+            const glm::dvec3 along(std::cos(e) * std::sin(a), std::sin(e), std::cos(e) * std::cos(a));
+            const render::View view = render::make_view({{3, 5, 7}, glm::dvec3(3, 5, 7) + along, 0.8}, 64, 36);
+            EXPECT_NEAR(view.right.y, 0, 1e-5) << elevation << " degrees up, " << azimuth << " around";
+            EXPECT_GT(view.up.y, 0) << elevation << " degrees up, " << azimuth << " around";
+            EXPECT_LT(glm::dot(view.right, glm::vec3(std::cos(a), 0, -std::sin(a))), -0.999);
+        }
+    }
+}
+
 TEST(View, LooksStraightDownWithoutLosingItsAxes) {
     scene::CameraPose pose;
     pose.position = {0, 50, 0};
