@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace reference {
 
@@ -144,6 +145,7 @@ motion::Character make_harlequin(bool open) {
     harlequin.name = open ? "open harlequin" : "harlequin";
     motion::Mesh& mesh = harlequin.mesh;
     mesh.textures = {make_texture(8, 8, {37, 53, 29}), make_texture(24, 10, {61, 17, 43})};
+    if (open) std::swap(mesh.textures[0], mesh.textures[1]);  // nor do two harlequins share theirs
     add_box(mesh, {{0, 0.9f, 0}, {0.28f, 0.45f, 0.17f}, root, chest, motion::no_texture, Tint::skin});
     add_box(mesh, {{0.05f, 1.55f, 0.05f}, {0.14f, 0.18f, 0.16f}, chest, chest, 0});
     add_box(mesh, {{0.45f, 1.1f, 0.1f}, {0.12f, 0.35f, 0.1f}, chest, chest, 1});

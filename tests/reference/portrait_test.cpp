@@ -18,7 +18,7 @@ using reference::Comparison;
 using reference::Model;
 using reference::Person;
 
-constexpr int width = 200, height = 160;
+constexpr int width = 200, height = 160;  // [px] unless a test changes it
 const scene::StaticMesh nothing{{{}, {}, {}}, {0, 0, 0}, {}};
 
 class Portrait : public tests::GlTest {
@@ -52,8 +52,8 @@ protected:
     void expect_alike(render::Renderer& renderer, const std::vector<const Model*>& models,
                       const std::vector<Person>& people, const scene::CameraPose& pose, double splat_size,
                       const std::string& what) {
-        const reference::Scene scene{{pose, width, height}, people, nullptr, {}, 0, splat_size};
-        const render::View view = render::make_view(pose, width, height);
+        const reference::Scene scene{{pose, size_.x, size_.y}, people, structure_, {}, 0, splat_size};
+        const render::View view = render::make_view(pose, size_.x, size_.y);
         renderer.draw(view, reference::selection_of(people, models, view), splat_size);
         const reference::Picture expected = reference::draw(scene);
         const Comparison found = reference::compare(renderer.read_image(), expected);
@@ -99,6 +99,9 @@ protected:
             }
         }
     }
+
+    glm::ivec2 size_{width, height};                // [px]
+    const scene::StaticMesh* structure_ = nullptr;  // what stands beside the people
 
 private:
     int surface_ = 0, plain_surface_ = 0;  // [px] over all pictures of a test
@@ -150,7 +153,7 @@ TEST_F(Portrait, OfAGroupIsTheReferences) {
                               height);
     std::vector<Person> group;
     for (int i = 0; i < 18; ++i) {
-        Person person = sitter(*models[static_cast<std::size_t>(i / 2 * 5 % 3)], i % 2, 7 * i % 24);
+        Person person = sitter(*models[static_cast<std::size_t>((i / 2 * 5 + i / 9) % 3)], i % 2, 7 * i % 24);
         person.points = i % 3 == 0 ? 0 : i % 3 == 1 ? 6 : 384;
         person.origin += glm::dvec3(1.1 * (i % 6) - 2.5, 0.1 * (i % 4), 1.5 * (i / 6));
         person.yaw += i;
@@ -162,6 +165,77 @@ TEST_F(Portrait, OfAGroupIsTheReferences) {
     for (const double azimuth : {0.0, 2.0, 4.0})
         for (const double distance : {3.0, 7.0, 25.0})
             expect_alike(renderer, models, group, camera(middle, azimuth, 0.3, distance), 4, "a group");
+}
+
+// Taller, wider, smaller and larger than before, and of odd sides.
+TEST_F(Portrait, OfAnySizeIsTheReferences) {
+    const std::unique_ptr<Model> model = harlequin(true);
+    render::Renderer renderer(nothing, {}, std::vector{model->assets()}, width, height);
+    const Person person = sitter(*model, 0, 5);
+    for (const glm::ivec2 size : {glm::ivec2(331, 90), {90, 331}, {37, 31}, {402, 301}, {200, 160}}) {
+        size_ = size;
+        renderer.resize(size.x, size.y);
+        expect_alike(renderer, {model.get()}, {person}, camera(person, 0.4, 0.2, 2.5), 0,
+                     std::to_string(size.x) + "x" + std::to_string(size.y));
+    }
+}
+
+// Whoever is tall or small, and whatever their file's unit.
+TEST_F(Portrait, SplatsAreNoWiderThanWhomTheyBelongTo) {
+    for (const float unit : {1.0f, 0.2f}) {
+        motion::Character character = reference::make_harlequin(false);
+        character.clips.clear();
+        for (glm::vec3& position : character.mesh.positions) position *= unit;
+        for (motion::MorphTarget& morph : character.mesh.morphs)
+            for (glm::vec3& offset : morph.position_offsets) offset *= unit;
+        const Model model(std::move(character), {}, 100);
+        render::Renderer renderer(nothing, {}, std::vector{model.assets()}, width, height);
+        for (const std::size_t points : {2u, 6u, 24u, 96u}) {
+            for (const double distance : {12.0, 30.0}) {
+                Person person = sitter(model, 0, 0);
+                person.points = points;
+                expect_alike(renderer, {&model}, {person}, camera(person, 1, 0.2, distance), 32,
+                             std::to_string(points) + " points from " + std::to_string(distance) + " m");
+            }
+        }
+    }
+}
+
+// Of stripes finer than a device's texture their mean is left.
+TEST_F(Portrait, OfTooFineTexturesIsTheReferences) {
+    motion::Character character = reference::make_harlequin(false);
+    for (const bool columns : {false, true}) {
+        motion::Texture& stripes = character.mesh.textures[columns];
+        stripes = {columns ? 2048 : 2, columns ? 2 : 2048, {}};
+        for (int i = 0; i < 2 * 2048; ++i)
+            stripes.texels.push_back((columns ? i : i / 2) % 2 == 0 ? glm::u8vec4(250, 80, 90, 255)
+                                                                    : glm::u8vec4(90, 200, 60, 255));
+    }
+    const Model model(std::move(character), {0, 1}, 100);
+    render::Renderer renderer(nothing, {}, std::vector{model.assets()}, width, height);
+    const Person person = sitter(model, 0, 0);
+    for (const double azimuth : {0.3, 2.5, 4.5})
+        expect_alike(renderer, {&model}, {person}, camera(person, azimuth, 0.2, 2), 0, "striped");
+}
+
+// Walls are seen from one side, beside whoever is seen from both.
+TEST_F(Portrait, OfAnOpenFigureLeavesWallsOneSided) {
+    const std::unique_ptr<Model> model = harlequin(true);
+    const Person person = sitter(*model, 0, 0);
+    scene::StaticMesh walls;
+    for (const float side : {-1.0f, 1.0f}) {
+        const auto first = static_cast<std::uint32_t>(walls.vertices.size());
+        const glm::vec3 foot = glm::vec3(person.origin) + glm::vec3(1.5f * side, 0, 0.2f);
+        for (const glm::vec3 corner : {glm::vec3(0), {0, 0, 1}, {0, 1.5f, 0}})
+            walls.vertices.push_back({foot + corner, {-side, 0, 0}, {200, 120, 60, 0}});
+        const bool turned = side > 0;
+        for (const std::uint32_t i : {0u, turned ? 1u : 2u, turned ? 2u : 1u}) walls.indices.push_back(first + i);
+    }
+    walls.sectors.push_back({{glm::vec3(person.origin) - 3.0f, glm::vec3(person.origin) + 3.0f}, 0, 6});
+    structure_ = &walls;
+    render::Renderer renderer(walls, {}, std::vector{model->assets()}, width, height);
+    for (int side = 0; side < 6; ++side)
+        expect_alike(renderer, {model.get()}, {person}, camera(person, side + 0.2, 0.2, 5), 0, "between walls");
 }
 
 TEST_F(Portrait, OfThePersonIsTheReferences) {

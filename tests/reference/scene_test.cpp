@@ -21,8 +21,11 @@ protected:
     void SetUp() override {
         tests::GlTest::SetUp();
         if (IsSkipped()) return;
+        draw_at(320, 180);
+    }
+    void draw_at(int width, int height) {
         static const tests::SmallScene scene(600);
-        stadium_ = std::make_unique<reference::Stadium>(scene, 320, 180);
+        stadium_ = std::make_unique<reference::Stadium>(scene, width, height);
     }
     void TearDown() override { stadium_.reset(); }
 
@@ -75,23 +78,30 @@ TEST_F(StadiumPicture, IsRightOnAverageWhereLinesAreFinerThanPixels) {
     expect_right({{44, 1.7, 40}, {20, 0, 36}, glm::radians(40.0)}, "along the lanes");
 }
 
-// Every kind of line, where it is many pixels wide: from 5 m above, the picture's upper edge towards -z.
-TEST_F(StadiumPicture, HasEveryLineOfTheGroundInItsPlace) {
-    const std::pair<const char*, glm::dvec2> places[] = {{"centre circle", {9, 1}},
-                                                         {"centre spot", {0, 0}},
-                                                         {"corner", {52, -33}},
-                                                         {"penalty area", {-36, 20}},
-                                                         {"penalty mark", {41.5, 0}},
-                                                         {"penalty arc", {-33.5, 3}},
-                                                         {"ring within the penalty area", {-44, 8.5}},
-                                                         {"goal area", {47, -9}},
-                                                         {"finish", {42.2, 39}},
-                                                         {"the other straight", {42.2, -39}},
-                                                         {"inner lane of a bend", {-80, 2}},
-                                                         {"outer lane of a bend", {82, 25}},
-                                                         {"mown stripes", {21, 30}}};
-    for (const auto& [what, xz] : places)
-        expect_alike({{xz.x, 5, xz.y}, {xz.x, 0, xz.y - 1e-4}, glm::radians(60.0)}, {}, what);
+// Markings from a man's height, where they are pixels wide: marks, boxes, the finish, lanes and slabs.
+TEST_F(StadiumPicture, IsTheReferencesWhereTheGroundIsNear) {
+    draw_at(160, 90);
+    const scene::Oval oval;
+    const double track = oval.radius + 3.66, end = oval.half_straight;
+    for (const glm::dvec2 spot : {glm::dvec2(41.5, 0),
+                                  {-41.5, 0},
+                                  {-52.5, -34},
+                                  {47, 9.16},
+                                  {36, -20.16},
+                                  {end, track},
+                                  {-end, track},
+                                  {end, -track},
+                                  {69.73, -27.53},
+                                  {152, 104},
+                                  {0, 0},
+                                  {9.15, 0},
+                                  {-32.4, 1},     // the arc, and where its ring would go on
+                                  {-41.5, 9.15},  // within the penalty area
+                                  {21, 30}}) {
+        const glm::dvec3 eye(spot.x + 0.3, 1.8, spot.y + 0.4);
+        expect_alike({eye, {spot.x, 0, spot.y}, glm::radians(25.0)}, {},
+                     "the ground at " + std::to_string(spot.x) + ", " + std::to_string(spot.y));
+    }
 }
 
 // Up to the sun, down to the ground, along it, and from a pixel's width of field to nearly all that is in front.

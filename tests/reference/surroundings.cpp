@@ -31,9 +31,10 @@ double to_segment(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b) {
     return glm::length(p - a - t * (b - a));
 }
 
+// Corners are square, as they are painted.
 double to_rectangle(glm::dvec2 p, glm::dvec2 from, glm::dvec2 to) {
-    const glm::dvec2 b(to.x, from.y), d(from.x, to.y);
-    return std::min({to_segment(p, from, b), to_segment(p, b, to), to_segment(p, to, d), to_segment(p, d, from)});
+    const glm::dvec2 beyond = glm::abs(p - (from + to) / 2.0) - glm::abs(to - from) / 2.0;
+    return std::abs(std::max(beyond.x, beyond.y));
 }
 
 std::vector<Stroke> pitch_lines(glm::dvec2 p) {

@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <cstdlib>
 #include <set>
+#include <stdexcept>
 
 #include "render/frame.h"
+#include "render/texture_array.h"
 #include "tests/render/gl_test.h"
 #include "tests/render/small_scene.h"
 
@@ -190,6 +192,15 @@ TEST_F(Picture, ResizedTargetHasItsNewSize) {
     // A sky, not the cleared black.
     EXPECT_TRUE(
         std::all_of(image.pixels.begin(), image.pixels.begin() + 3 * 64, [](std::uint8_t v) { return v > 20; }));
+}
+
+// A look has five bits for its layer, and one number says that there is none.
+TEST_F(Picture, HasNoMoreTexturesThanALookCanName) {
+    const motion::Texture white{1, 1, {glm::u8vec4(255)}};
+    std::vector<motion::Texture> textures(31, white);
+    EXPECT_NO_THROW(render::make_texture_array(textures));
+    textures.push_back(white);
+    EXPECT_THROW(render::make_texture_array(textures), std::runtime_error);
 }
 
 TEST(Png, StartsWithItsSignatureAndEndsWithItsLastChunk) {
