@@ -253,6 +253,91 @@ TEST(SafeguardedTimes, APauseOfTheProgramIsNoTime) {
     EXPECT_NEAR(run.level_ms(), 10, rounding);
 }
 
+// --- Slopes and brackets: times of a renderer that takes what each test says, first 20 ms for all detail.
+
+struct Sloped : Driven<SafeguardedLaw> {
+    explicit Sloped(const SafeguardedConstants& constants = {}) : Driven(sought_ms, constants) {
+        answer(2 * sought_ms, 2);
+    }
+    double detail() const { return law.memory().detail; }
+    double slope() const { return law.memory().slope; }
+};
+
+TEST(SafeguardedSlope, AStraightLineIsKnownFromOneStepOn) {
+    for (const double fixed : {2.0, 4.0, 6.0}) {  // [ms] at no detail
+        const auto line = [=](double detail) { return fixed + (2 * sought_ms - fixed) * detail; };
+        Sloped run;
+        const double first = line(run.detail());
+        run.answer(first, 2);
+        EXPECT_NEAR(run.slope(), (2 * sought_ms - fixed) / first, rounding);
+        EXPECT_NEAR(line(run.detail()), std::exp(run.law.memory().aim), rounding) << fixed;
+    }
+}
+
+TEST(SafeguardedSlope, ADifferenceIsOneBeyondTheErrorsOfBothItsEnds) {
+    SafeguardedConstants constants;
+    constants.trust = 6;
+    constants.outlier = 20;
+    const double error = Sloped(constants).law.memory().noise / std::sqrt(2);  // of the mean of two times
+    for (const double errors : {1.2, 1.7}) {                                   // at one end; at both they are 1.41
+        const double change = errors * constants.trust * error + constants.dead_band;
+        Sloped run(constants);
+        const double moved = 1 - run.detail();
+        run.answer(2 * sought_ms * std::exp(-change), 2);
+        const double measured = (std::exp(change) - 1) / moved;
+        if (errors < std::sqrt(2)) {
+            EXPECT_LT(run.slope(), 0.8 * measured) << "it may be no slope at all";
+        } else {
+            EXPECT_NEAR(run.slope(), measured, rounding);
+        }
+    }
+}
+
+// From a line that falls from 20 ms by 12 ms a detail.
+TEST(SafeguardedSlope, IsRevisedAsFarAsADifferenceIsBeyondDoubtAndThreefoldAtMost) {
+    SafeguardedConstants constants;
+    constants.dead_band = 0.2;
+    constants.headroom = 0;
+    constexpr double before_ms = 14, fall = 12, line = fall / sought_ms;  // where the line leads, it meets the target
+    const auto at_the_lines_end = [&] {
+        Sloped run(constants);
+        EXPECT_NEAR(run.detail(), 0.5, rounding);
+        run.answer(before_ms, 2);
+        EXPECT_NEAR(run.detail(), 1 - (2 * sought_ms - sought_ms) / fall, rounding);
+        return run;
+    };
+    Sloped hardly = at_the_lines_end();
+    const double moved = 0.5 - hardly.detail(), change = 1.5 * constants.dead_band;
+    hardly.answer(before_ms * std::exp(-change), constants.settled);
+    const double measured = (std::exp(change) - 1) / moved;
+    EXPECT_LT(std::abs(hardly.slope() - line), std::abs(hardly.slope() - measured)) << "little of it is beyond doubt";
+    EXPECT_NE(hardly.slope(), line) << "but some";
+
+    Sloped clearly = at_the_lines_end();
+    clearly.answer(before_ms / 4, 2);
+    EXPECT_GT(clearly.slope(), line);
+    EXPECT_LE(clearly.slope(), 3 * line + rounding);
+}
+
+TEST(SafeguardedBracket, IsForgottenWhereAnEndWasOfAnotherScene) {
+    Sloped faster;
+    faster.answer(9, 2);
+    ASSERT_TRUE(faster.law.memory().fast_end.is_known && faster.law.memory().slow_end.is_known);
+    faster.answer(12, 2);
+    ASSERT_TRUE(faster.law.memory().fast_end.is_known && faster.law.memory().slow_end.is_known);
+    ASSERT_GT(faster.detail(), faster.law.memory().fast_end.detail);
+    faster.answer(8, 2);  // finer than what took 9 ms
+    EXPECT_TRUE(faster.law.memory().fast_end.is_known);
+    EXPECT_FALSE(faster.law.memory().slow_end.is_known);
+
+    Sloped slower;
+    slower.answer(9, 2);
+    ASSERT_LT(slower.detail(), 1);
+    slower.answer(22, 2);  // coarser than what took 20 ms
+    EXPECT_TRUE(slower.law.memory().slow_end.is_known);
+    EXPECT_FALSE(slower.law.memory().fast_end.is_known);
+}
+
 // --- Searches.
 
 // Bound elsewhere from frame 300 on, but for a last part that detail still buys.
