@@ -338,6 +338,47 @@ TEST(SafeguardedBracket, IsForgottenWhereAnEndWasOfAnotherScene) {
     EXPECT_FALSE(slower.law.memory().fast_end.is_known);
 }
 
+TEST(SafeguardedMemory, ASearchBeginsAtTheLastSlowTimeAfterAFastOne) {
+    Sloped run;
+    ASSERT_EQ(run.law.memory().top.detail, 1);
+    run.answer(9, 2);
+    const double finer = run.detail();
+    run.answer(12, 2);
+    EXPECT_EQ(run.law.memory().top.detail, finer);
+    EXPECT_NEAR(run.law.memory().top.level, std::log(12), rounding);
+}
+
+TEST(SafeguardedMemory, ANewTargetsSearchBeginsAnew) {
+    Sloped run;
+    run.answer(11);
+    ASSERT_TRUE(run.law.memory().top.is_known);
+    run.retarget(2 * sought_ms);
+    EXPECT_FALSE(run.law.memory().top.is_known);
+}
+
+// What was found where detail bought nothing is not held against it once it does.
+TEST(SafeguardedMemory, NothingIsLeftOfASearchInVain) {
+    Driven<SafeguardedLaw> run(sought_ms);
+    run.answer(1.5 * sought_ms, 2);
+    for (int i = 0; i < 200 && run.decision != Decision{}; ++i) run.answer(1.5 * sought_ms);
+    ASSERT_TRUE(run.law.memory().is_held);
+    const SafeguardedMemory& left = run.law.memory();
+    for (const auto& cost : {left.before, left.top, left.fast_end, left.slow_end}) EXPECT_FALSE(cost.is_known);
+}
+
+TEST(SafeguardedMemory, ASmallStepsBeginningIsForgottenAfterAQuietTime) {
+    SafeguardedConstants constants;
+    constants.dead_band = 0.03;
+    constants.trust = 6;
+    constants.outlier = 20;
+    Sloped run(constants);
+    run.answer(11.8, 2);
+    run.answer(10.2, constants.settled);
+    EXPECT_TRUE(run.law.memory().before.is_known) << "too small a step to tell a slope from noise";
+    run.answer(10.2, 2);
+    EXPECT_FALSE(run.law.memory().before.is_known);
+}
+
 // --- Searches.
 
 // Bound elsewhere from frame 300 on, but for a last part that detail still buys.
