@@ -108,6 +108,75 @@ TEST(CostModel, OneOutlierLeavesNothing) {
     }
 }
 
+TEST(CostModel, OfTwoFirstTimesTheShorterIsBelieved) {
+    const Amounts work = amounts(1, 1, 1);
+    for (const bool is_hitch_first : {true, false}) {
+        CostModel model(belief);
+        for (const bool is_hitch : {is_hitch_first, !is_hitch_first})
+            model.observe(work, (is_hitch ? 10 : 1) * renderer_ms(work));
+        ASSERT_TRUE(model.is_ready());
+        EXPECT_LT(model.predict(work).log_ms, std::log(2 * renderer_ms(work))) << is_hitch_first;
+    }
+}
+
+// A model that has seen the renderer for long, at a gain of 1, and lately without noise.
+CostModel experienced(const Amounts& work) {
+    CostModel model(belief);
+    std::mt19937_64 random(7);
+    for (int i = 0; i < 300; ++i) model.observe(work, renderer_ms(work) * std::exp(0.01 * normal(random)));
+    for (int i = 0; i < 40; ++i) model.observe(work, renderer_ms(work));
+    return model;
+}
+
+TEST(CostModel, TwoOutliersThatDisagreeAreNoShift) {
+    const Amounts work = amounts(1, 2, 1);
+    CostModel apart = experienced(work), alike = apart;
+    for (const double gain : {1.5, 3.0}) apart.observe(work, renderer_ms(work, gain));
+    for (const double gain : {2.0, 2.02}) alike.observe(work, renderer_ms(work, gain));
+    EXPECT_EQ(apart.shifts(), 0);
+    EXPECT_NEAR(apart.predict(work).log_ms, std::log(renderer_ms(work)), 0.05);
+    EXPECT_EQ(alike.shifts(), 1);
+}
+
+TEST(CostModel, ALevelTwentyfoldOffIsBelievedAtItsEighthTime) {
+    const Amounts work = amounts(1, 2, 1);
+    for (const double gain : {40.0, 1 / 40.0}) {
+        CostModel model = experienced(work);
+        const double before = model.predict(work).log_ms;
+        for (int i = 1; i < 8; ++i) {
+            model.observe(work, renderer_ms(work, gain));
+            ASSERT_EQ(model.predict(work).log_ms, before) << i;
+        }
+        for (int i = 0; i < 8; ++i) model.observe(work, renderer_ms(work, gain));
+        EXPECT_NEAR(model.predict(work).log_ms, std::log(renderer_ms(work, gain)), 0.1) << gain;
+    }
+}
+
+TEST(CostModel, WhatIsNeverSeenIsForgottenNoFurtherThanTheFirstBelief) {
+    const Amounts seen = amounts(1, 1, 0);
+    CostModel model(belief);
+    for (int i = 0; i < 2; ++i) model.observe(seen, renderer_ms(seen));
+    const double first = model.price_uncertainty(2);
+    for (int i = 0; i < 500'000; ++i) model.observe(seen, renderer_ms(seen));
+    EXPECT_NEAR(model.price_uncertainty(2), first, 0.01 * first);
+}
+
+// The same renderer timed in microseconds: all that has a unit has the other one.
+TEST(CostModel, PricesAndTheirUncertaintyAreInTheTimesUnit) {
+    CostModel ms(belief), us(belief);
+    std::mt19937_64 random(8);
+    for (int i = 0; i < 100; ++i) {
+        const Amounts work = any_work(random);
+        const double time = renderer_ms(work) * std::exp(0.02 * normal(random));
+        ms.observe(work, time);
+        us.observe(work, 1000 * time);
+    }
+    for (int term = 0; term < 3; ++term) {
+        EXPECT_NEAR(us.price(term) / ms.price(term), 1000, 1e-3);
+        EXPECT_NEAR(us.price_uncertainty(term) / ms.price_uncertainty(term), 1000, 1e-3);
+    }
+}
+
 TEST(CostModel, TellsTheNoiseOfASingleFrame) {
     for (const double noise : {0.005, 0.03, 0.1}) {
         std::mt19937_64 random(6);
