@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -168,6 +169,102 @@ TEST(RobustMpc, DividesByTheWorstErrorOfItsForecasts) {
     mpc.law->observe({0, 1.5 * target, mpc.decision, {}});  // half of the detail at 1.5 targets: 3 for all of it
     mpc.decision = mpc.law->decide({target, range});
     EXPECT_NEAR(mpc.detail(), 1 / (2.5 * (1 + 0.5)), exact) << "mean cost 2.5; 3 was taken for 2";
+}
+
+// --- What each counts is begun anew.
+
+TEST(Filament, WhatCannotRiseAnyFurtherIsNotSummedUp) {
+    Driven filament("filament");
+    EXPECT_EQ(filament.after(1000, 0.5), 1);
+    EXPECT_LT(filament.after(9, 2), 1) << "slow is the median of 15 times from the eighth on";
+}
+
+TEST(Hdrp, RisesAfterEightGoodGroupsInARow) {
+    Driven hdrp("hdrp");
+    const double low = hdrp.after(60, 1.5);
+    hdrp.after(7 * 15, 0.5);
+    hdrp.after(15, 1.5);
+    EXPECT_EQ(hdrp.after(7 * 15, 0.5), low);
+    EXPECT_GT(hdrp.after(15, 0.5), low);
+}
+
+TEST(Minetest, KnowsNoSlopeFromOnePeriod) {
+    constexpr double nodes = 240, least_slope = 0.5;  // [ms per node]
+    const double spare_ms = target - 10 * target;
+    EXPECT_NEAR(Driven("minetest").after(1, 10), 1 + 0.5 * spare_ms / least_slope / nodes, exact);
+}
+
+TEST(SecondLife, PeriodsToSpareAreInARowAndCountedOnce) {
+    constexpr double step = 10.0 / 256;
+    Driven life("second-life");
+    EXPECT_NEAR(life.after(100, 1.2), 1 - 2 * step, exact);
+    life.after(100, 0.8);
+    life.after(50, 0.98);
+    EXPECT_NEAR(life.after(149, 0.8), 1 - 2 * step, exact);
+    EXPECT_NEAR(life.after(1, 0.8), 1 - step, exact);
+    EXPECT_NEAR(life.after(149, 0.8), 1 - step, exact);
+    EXPECT_NEAR(life.after(1, 0.8), 1, exact);
+}
+
+TEST(UnityAdaptive, WaitsFourSecondsForEachStep) {
+    Driven adaptive("unity-adaptive");
+    for (int i = 1; i < 4; ++i) {
+        adaptive.after(99, 2);
+        EXPECT_NEAR(adaptive.detail(), 1.1 - 0.1 * i, exact);
+        EXPECT_NEAR(adaptive.after(1, 2), 1 - 0.1 * i, exact);
+    }
+}
+
+TEST(UnitySample, CountsAnewAfterAFall) {
+    Driven unity("unity-sample");
+    unity.after(1, 1.25);
+    unity.after(117, 0.7);  // 358 of 360
+    EXPECT_NEAR(unity.after(1, 1.1), 0.65, exact);
+    EXPECT_NEAR(unity.after(100, 0.7), 0.65, exact);
+}
+
+TEST(UnitySample, FallsByAGrowthThatWouldUseUpWhatIsSpare) {
+    Driven unity("unity-sample");
+    EXPECT_EQ(unity.after(1, 0.6), 1);
+    EXPECT_NEAR(unity.after(1, 0.85), 1 - (0.85 - 0.6), exact);
+}
+
+TEST(UnrealLike, TwoFramesOverBudgetWithOneBetweenThemAreNoPanic) {
+    Driven unreal("unreal-like");
+    for (const double load : {1.2, 0.8, 1.2}) EXPECT_EQ(unreal.after(1, load), 1);
+    EXPECT_LT(unreal.after(1, 1.2), 1);
+}
+
+TEST(Valve, LooksTwoFramesBackOnlyAfterFive) {
+    for (const int quiet : {1, 2}) {
+        Driven valve("valve");
+        valve.after(quiet, 0.76);
+        for (const double load : {0.76, 0.845}) valve.after(1, load);
+        ASSERT_EQ(valve.detail(), 1);
+        EXPECT_EQ(valve.after(1, 0.87) < 1, quiet == 2) << "0.055 a frame, over two";
+    }
+}
+
+TEST(Woof, EachStepTakesAHistoryOfItsOwn) {
+    Driven woof("woof");
+    for (int i = 1; i < 4; ++i) {
+        woof.after(14, 1.1);
+        EXPECT_NEAR(woof.detail(), 1.05 - 0.05 * i, exact);
+        EXPECT_NEAR(woof.after(1, 1.1), 1 - 0.05 * i, exact);
+    }
+}
+
+TEST(Rivals, ATimeOfNoSoundDecisionIsOfThePresentDetail) {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    for (const std::string_view name : rival_names()) {
+        Driven sound(name), odd(name);
+        for (int i = 0; i < 3; ++i) {
+            sound.after(1, 1.5);
+            odd.law->observe({0, 1.5 * target, {State::slowed, none, 0}, {}});
+            odd.decision = odd.law->decide({target, range});
+        }
+        EXPECT_NEAR(odd.detail(), sound.detail(), exact) << name;
+    }
 }
 
 }  // namespace
