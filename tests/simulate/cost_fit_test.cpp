@@ -182,7 +182,7 @@ TEST(CostFit, ARunInWhichNothingChangesIsSharedByBelief) {
 TEST(CostFit, SkipsRowsWithoutATimeAndTimesAThousandfoldOff) {
     std::vector<TraceRow> rows = run_of(200, true_prices);
     const double infinity = std::numeric_limits<double>::infinity();
-    const double no_times[] = {none, infinity, -infinity, 0, -3, 1e30, 5e-324, 1e8};
+    const double no_times[] = {none, infinity, -infinity, 0, -3, 1e30, 5e-324, 1e8, 1e-5};
     std::size_t at = 3;
     for (const double ms : no_times) rows[at += 11].frame_ms = ms;
     const CostFit fit = fit_costs(rows);

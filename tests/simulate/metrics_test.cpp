@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <memory>
+#include <utility>
 
 #include "sfsm/simulate/knob_plant.h"
 
@@ -65,6 +67,14 @@ TEST(Metrics, QualityIsTheSumOfDetailOverTheBest) {
         o.detail = frame < 2 ? best_detail : 0.5 * best_detail;
     });
     EXPECT_NEAR(m.quality, 0.75, 1e-9);
+}
+
+TEST(Metrics, QualityLeavesInterruptedFramesOut) {
+    Course course = plain_course(100);
+    course.scenario.interruptions = {{{60, 70}, 4000}};
+    const Metrics m = measured(
+        course, [](std::int64_t frame, Outcome& o) { o.detail = frame >= 60 && frame < 70 ? 0 : best_detail; });
+    EXPECT_NEAR(m.quality, 1, 1e-9);
 }
 
 TEST(Metrics, FramesBeforeTheStatisticsCountInNoShare) {
@@ -164,6 +174,32 @@ TEST(Metrics, OvershootForgivesTheFramesThatNoLawCanKnowOf) {
     EXPECT_EQ(peak_at(100), 0);
     EXPECT_EQ(peak_at(101), 0) << "the time of frame 100 arrives before frame 102";
     EXPECT_NEAR(peak_at(102), 60, 1e-9);
+}
+
+// A plant that tells of its frames beforehand.
+class Told final : public Plant {
+public:
+    explicit Told(std::shared_ptr<const Plant> plant) : plant_(std::move(plant)) {}
+    double range(std::int64_t frame) const override { return plant_->range(frame); }
+    const Forecast* forecast(std::int64_t) const override { return &forecast_; }
+    double cost_ms(std::int64_t frame, const Decision& d) const override { return plant_->cost_ms(frame, d); }
+    Work work(std::int64_t frame, const Decision& d) const override { return plant_->work(frame, d); }
+    double detail(std::int64_t frame, const Decision& d) const override { return plant_->detail(frame, d); }
+    Decision optimum(std::int64_t frame, double limit_ms) const override { return plant_->optimum(frame, limit_ms); }
+
+private:
+    std::shared_ptr<const Plant> plant_;
+    Forecast forecast_;
+};
+
+TEST(Metrics, OvershootForgivesNothingThatAForecastTold) {
+    Course course = plain_course(300);
+    course.scenario.steps = {{{100, 300}, true}};
+    course.scenario.plant = std::make_shared<Told>(course.scenario.plant);
+    const Metrics m = measured(course, [](std::int64_t frame, Outcome& o) {
+        if (frame == 100) take(o, 16);
+    });
+    EXPECT_NEAR(m.overshoot_pct, 60, 1e-9);
 }
 
 TEST(Metrics, ReversalsVariationAndChangesAreOfSteadyFramesOnly) {
