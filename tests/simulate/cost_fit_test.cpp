@@ -68,6 +68,18 @@ TEST(CostFit, RecoversThePricesOfTimesWithoutNoise) {
     for (const double off : fit.residual) EXPECT_NEAR(off, 0, 1e-9);
 }
 
+// With 201 frames every percentile is a frame's own residual.
+TEST(CostFit, PercentilesAreOfResidualsRelativeToTheModel) {
+    std::vector<TraceRow> rows = run_of(201, true_prices);
+    add_noise(rows, 0.05, 0);
+    const CostFit fit = fit_costs(rows);
+    std::vector<double> residuals;
+    for (const TraceRow& row : rows) residuals.push_back(row.frame_ms / cost_of(row.work, fit.prices) - 1);
+    std::sort(residuals.begin(), residuals.end());
+    for (std::size_t i = 0; i < fit.percents.size(); ++i)
+        EXPECT_NEAR(fit.residual[i], residuals[static_cast<std::size_t>(2 * fit.percents[i])], 1e-9) << i;
+}
+
 TEST(CostFit, RecoversFreeWorkAsFree) {
     Prices prices = true_prices;
     prices.update = 0;

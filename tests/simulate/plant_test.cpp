@@ -98,6 +98,14 @@ TEST(WorkPlant, CostsPricesTimesWork) {
     }
 }
 
+TEST(WorkPlant, WhoMovesInEveryFrameLosesNothing) {
+    View view;
+    view.theta = 0;  // no rate falls with distance
+    const WorkPlant plant(some_prices, {view}, [](std::int64_t) { return std::size_t{0}; });
+    for (const double share : {0.9, 0.5, 0.1})
+        EXPECT_EQ(plant.detail(0, {State::slowed, share * view.range, 0}), 1) << share;
+}
+
 TEST(WorkPlant, ForecastsTheWorkOfEveryPairOfSteps) {
     const WorkPlant plant = work_plant();
     const Forecast& forecast = *plant.forecast(0);
