@@ -272,6 +272,16 @@ TEST_F(Output, DoesNotReplaceAReadOnlyFile) {
     EXPECT_EQ(text("old"), "old");
 }
 
+// A program that was killed may have left one of the same name, and processes' numbers come again.
+TEST_F(Output, LeavesHalfWrittenFilesOfOthersAlone) {
+    constexpr int most_files = 500;  // more than this program opens
+    const std::string path = directory_ / "a", left = "a.part" + std::to_string(getpid()) + "-";
+    for (int i = 0; i < most_files; ++i) put(left + std::to_string(i), "left");
+    EXPECT_EQ(complaint(path), "");
+    EXPECT_EQ(text("a"), "new");
+    for (int i = 0; i < most_files; ++i) EXPECT_EQ(text(left + std::to_string(i)), "left") << i;
+}
+
 TEST_F(Output, SameFileWhateverItIsCalled) {
     const std::string file = put("file", "");
     fs::create_symlink("file", directory_ / "link");
@@ -299,6 +309,18 @@ TEST_F(Output, RefusesPlacesThatAreOne) {
     EXPECT_NE(refused({}, {out, {"--b", directory_ / "./out"}}).find("--out and --b"), std::string::npos);
     EXPECT_NE(refused({input}, {out, {"--b", directory_ / "./in"}}).find("--in and --b"), std::string::npos);
     EXPECT_NE(refused({}, {{"--a", "-"}, {"--b", "-"}}).find("at most one"), std::string::npos);
+    EXPECT_NE(refused({}, {{"--a", directory_ / "a"}, out, {"--b", directory_ / "out"}}).find("--out and --b"),
+              std::string::npos);
+    EXPECT_EQ(refused({{"--in", "/dev/null"}}, {{"--a", "/dev/null"}, {"--b", "/dev/null"}}), "") << "no file at all";
+}
+
+TEST_F(Output, FollowsLinksOfLinks) {
+    fs::create_symlink("b", directory_ / "a");
+    fs::create_symlink("c", directory_ / "b");
+    EXPECT_TRUE(same_file(directory_ / "a", directory_ / "c")) << "neither is there yet";
+    EXPECT_EQ(complaint(directory_ / "a"), "");
+    EXPECT_EQ(text("c"), "new");
+    EXPECT_TRUE(fs::is_symlink(directory_ / "b"));
 }
 
 }  // namespace
