@@ -135,6 +135,8 @@ TEST(PointCache, LivesWhereUsersKeepCaches) {
     unsetenv("XDG_CACHE_HOME");
     setenv("HOME", "/home/me", 1);
     EXPECT_EQ(apps::default_cache(), "/home/me/.cache/grandstand");
+    setenv("XDG_CACHE_HOME", "", 1);
+    EXPECT_EQ(apps::default_cache(), "/home/me/.cache/grandstand") << "empty is not set";
     unsetenv("HOME");
     EXPECT_TRUE(apps::default_cache().empty());
 }
