@@ -135,19 +135,14 @@ protected:
 
     // What came before a last press of 1, which is waited for: the server passes keys on when it likes.
     std::vector<Command> commands() {
-        constexpr int most_turns = 100'000;  // each waits for the server's answer
         hold(XK_1, 0, 1);
         std::vector<Command> commands;
-        for (int turn = 0; turn < most_turns; ++turn) {
-            const std::vector<Command> more = window_->poll().commands;
-            commands.insert(commands.end(), more.begin(), more.end());
-            if (!commands.empty() && commands.back() == Command::preset_1) {
-                commands.pop_back();
-                return commands;
-            }
-            XSync(display_, False);
-        }
-        ADD_FAILURE() << "the window has not passed on that 1 was pressed";
+        const bool came = poll_until([&](const render::Input& input) {
+            commands.insert(commands.end(), input.commands.begin(), input.commands.end());
+            return !commands.empty() && commands.back() == Command::preset_1;
+        });
+        EXPECT_TRUE(came) << "the window has not passed on that 1 was pressed";
+        if (came) commands.pop_back();
         return commands;
     }
 

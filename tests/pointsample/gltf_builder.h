@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "pointsample/gltf.h"
 #include "tests/pointsample/folder.h"
 
 namespace tests {
@@ -152,6 +153,12 @@ inline GltfBuilder make_everything() {
         {{"doubleSided", true},
          {"pbrMetallicRoughness", {{"baseColorFactor", {1, 0.5, 0.0, 0.5}}, {"baseColorTexture", {{"index", 0}}}}}}};
     return builder;
+}
+
+// What the loader makes of it.
+inline motion::Character load(GltfBuilder builder) {
+    const TemporaryFolder folder;
+    return pointsample::load_gltf(folder.write("built.glb", builder.glb()));
 }
 
 }  // namespace tests

@@ -16,11 +16,7 @@ namespace {
 
 using tests::GltfBuilder;
 using tests::json;
-
-motion::Character load(GltfBuilder builder) {
-    const tests::TemporaryFolder folder;
-    return pointsample::load_gltf(folder.write("built.glb", builder.glb()));
-}
+using tests::load;
 
 template <typename Value>
 std::string bytes_of(const std::vector<Value>& values) {

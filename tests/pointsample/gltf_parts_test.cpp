@@ -13,6 +13,7 @@ namespace {
 
 using tests::GltfBuilder;
 using tests::json;
+using tests::load;
 
 constexpr double halfway = 0.35;  // [s] between the clip's keys, off their middle
 
@@ -221,11 +222,6 @@ std::vector<Triangle> triangles_of(const motion::Character& character) {
     }
     std::sort(triangles.begin(), triangles.end());
     return triangles;
-}
-
-motion::Character load(GltfBuilder builder) {
-    const tests::TemporaryFolder folder;
-    return pointsample::load_gltf(folder.write("built.glb", builder.glb()));
 }
 
 motion::Character load_parts(const std::vector<std::size_t>& which) {

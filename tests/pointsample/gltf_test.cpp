@@ -14,11 +14,7 @@ namespace {
 
 using tests::GltfBuilder;
 using tests::json;
-
-motion::Character load(GltfBuilder builder) {
-    const tests::TemporaryFolder folder;
-    return pointsample::load_gltf(folder.write("built.glb", builder.glb()));
-}
+using tests::load;
 
 // What the loader says against a file; fails the test if it says nothing.
 std::string complaint(const std::filesystem::path& path) {
