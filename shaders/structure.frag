@@ -21,32 +21,33 @@ const float lane_width = 1.22;             // [m]
 const float lane_count = 8.0;
 
 vec2 pixel_x, pixel_y;  // [m] from here to the next pixel's ground, to the right and up
+vec2 footprint;         // [m] how wide a pixel is along x and z
 
-// A line's or an area's edge: signed distance [m], then its gradient, the unit direction across it.
-float across(vec3 edge) { return max(abs(dot(edge.yz, pixel_x)) + abs(dot(edge.yz, pixel_y)), 1e-4); }  // [m] a pixel
-
-vec3 edge_x(float distance) { return vec3(distance, 1.0, 0.0); }
-vec3 edge_z(float distance) { return vec3(distance, 0.0, 1.0); }
-vec3 circle(vec2 p, float radius) {
+// A line's or an area's edge is a signed distance and the width of a pixel across it, both [m].
+vec2 edge_x(float distance) { return vec2(distance, footprint.x); }
+vec2 edge_z(float distance) { return vec2(distance, footprint.y); }
+vec2 circle(vec2 p, float radius) {
     float r = max(length(p), 1e-6);
-    return vec3(r - radius, p / r);
+    float pixel = (abs(dot(p, pixel_x)) + abs(dot(p, pixel_y))) / r;
+    return vec2(r - radius, max(pixel, 1e-4));
 }
-vec3 box(vec2 p, vec2 half_size) {
+vec2 box(vec2 p, vec2 half_size) {
     vec2 q = abs(p) - half_size;
     return q.x > q.y ? edge_x(q.x) : edge_z(q.y);
 }
-vec3 outset(vec3 edge, float by) { return vec3(edge.x - by, edge.yz); }
+vec2 outset(vec2 edge, float by) { return vec2(edge.x - by, edge.y); }
+vec2 other_side(vec2 edge) { return vec2(-edge.x, edge.y); }
 
 // Coverage in [0, 1] of a line along an edge: as dark as it is thin, where a pixel is wider.
-float line(vec3 edge, float half_width) {
-    float pixel = across(edge);
+float line(vec2 edge, float half_width) {
+    float pixel = edge.y;
     float w = max(half_width, 0.5 * pixel);
     return clamp((w - abs(edge.x)) / pixel + 0.5, 0.0, 1.0) * half_width / w;
 }
-float inside(vec3 edge) { return clamp(0.5 - edge.x / across(edge), 0.0, 1.0); }
+float inside(vec2 edge) { return clamp(0.5 - edge.x / edge.y, 0.0, 1.0); }
 
 // A box that reaches `depth` into the pitch from the goal line.
-vec3 goal_box(vec2 m, float depth, float half_width) {
+vec2 goal_box(vec2 m, float depth, float half_width) {
     return box(m - vec2(pitch_half.x - 0.5 * depth, 0.0), vec2(0.5 * depth, half_width));
 }
 
@@ -68,7 +69,7 @@ float markings(vec2 p) {
 
 vec3 grass(vec2 p) {
     const float stripe = 5.25;  // [m] twenty mown stripes on a pitch
-    float pixel = across(edge_x(p.x));
+    float pixel = footprint.x;
     float mown = clamp(0.5 + sin(p.x * 3.14159265 / stripe) / max(pixel, 0.05), 0.0, 1.0);
     mown = mix(mown, 0.5, clamp(pixel / stripe, 0.0, 1.0));
     return mix(vec3(0.050, 0.150, 0.030), vec3(0.068, 0.190, 0.040), mown);
@@ -84,19 +85,20 @@ vec3 paving(vec2 p) {
 void main() {
     pixel_x = dFdx(ground);
     pixel_y = dFdy(ground);
+    footprint = max(abs(pixel_x) + abs(pixel_y), 1e-4);
     // Outward from the track's inner line.
     vec2 beyond = vec2(sign(ground.x) * max(abs(ground.x) - Frame.oval.x, 0.0), ground.y);
-    vec3 track_edge = circle(beyond, Frame.oval.y);
+    vec2 track_edge = circle(beyond, Frame.oval.y);
 
     vec3 surface = mix(grass(ground), vec3(0.80), markings(ground));
-    float track = inside(-track_edge) * inside(outset(track_edge, lane_count * lane_width));
-    vec3 lane = outset(track_edge, lane_width * round(track_edge.x / lane_width));
+    float track = inside(other_side(track_edge)) * inside(outset(track_edge, lane_count * lane_width));
+    vec2 lane = outset(track_edge, lane_width * round(track_edge.x / lane_width));
     vec3 tartan = mix(vec3(0.32, 0.075, 0.045), vec3(0.75), line(lane, 0.025));
     float finish = line(edge_x(ground.x - Frame.oval.x), 0.025) * float(ground.y > 0.0);
     surface = mix(surface, mix(tartan, vec3(0.75), finish), track);
-    float apron = inside(-outset(track_edge, lane_count * lane_width));
+    float apron = inside(other_side(outset(track_edge, lane_count * lane_width)));
     surface = mix(surface, vec3(0.10, 0.17, 0.20), apron);
-    surface = mix(surface, paving(ground), inside(-outset(track_edge, Frame.oval.z)));
+    surface = mix(surface, paving(ground), inside(other_side(outset(track_edge, Frame.oval.z))));
     vec3 light = Frame.sky_light.rgb + Frame.sun_color.rgb * Frame.sun_direction.y;
     color = vec4(sqrt(surface * light), 1.0);
 }
