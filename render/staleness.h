@@ -17,7 +17,7 @@ namespace render {
 using Staleness = std::array<float, motion::max_period + 1>;
 
 // By character, then role; zero for a role that nobody has. A few hundred people of each are looked at, at ticks spread
-// over some minutes: some ten milliseconds a character.
+// over some minutes: tens of milliseconds a character.
 std::vector<std::array<Staleness, scene::role_count>> measure_staleness(const scene::Crowd& crowd,
                                                                         std::span<const Figure> figures);
 

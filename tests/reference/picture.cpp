@@ -21,7 +21,7 @@ double as_good_as_near(double depth) {
     return depth + 1e-3 + 1e-5 * depth;
 }
 
-// A normal so nearly at right angles to the ray may be taken to face either way: it is packed within 0.013 rad.
+// A normal so nearly at right angles to the ray may be taken to face either way: it is packed within 0.017 rad.
 constexpr double edge_on = 0.02;
 
 // Two passes over everything: first how near the nearest is in each place, then who is that near.

@@ -1,7 +1,7 @@
 // The oracle for every way of drawing: what each pixel may show, by brute force in double precision. Every triangle and
 // every splat of everybody is tried on every pixel that it could cover; nothing is culled, batched, packed or baked.
 //
-// A renderer rounds: positions to a fraction of a pixel, normals to half a degree, depths to float32. So a pixel is
+// A renderer rounds: positions to a fraction of a pixel, normals to a degree, depths to float32. So a pixel is
 // looked at in five places, its centre and a sixteenth of a pixel off it, and in each place at all surfaces that are as
 // good as equally near. Where all of that is one colour the renderer must show it; beside edges, one of these.
 #pragma once

@@ -47,23 +47,30 @@ bool same_bits(const Selection& a, const Selection& b) {
            a.work == b.work;
 }
 
-// Every corner of every pose's triangles of a person, projected: the slow truth about who shows.
-bool some_vertex_shows(const render::View& view, std::size_t person, std::int64_t tick) {
+// [m] Where every `stride`-th vertex of a person is in the world.
+std::vector<glm::vec3> surface_of(std::size_t person, std::int64_t tick, int stride) {
     const tests::SmallScene& scene = small_scene();
     const motion::PoseTable& table = scene.poses[0];
-    const scene::Placement placement = scene::place(scene.crowd, person, scene.cast[0], tick);
+    const scene::Placement at = scene::place(scene.crowd, person, scene.cast[0], tick);
     const scene::Action action = scene::act(scene.crowd, person, scene.cast[0], table, tick);
     const int pose = table.pose_at(action.clip, action.clip_tick);
     const float scale = scene.crowd.height[person] / table.rest_height;
-    const float s = std::sin(placement.yaw), c = std::cos(placement.yaw);
-    for (int vertex = 0; vertex < table.vertex_count; ++vertex) {
+    const float s = std::sin(at.yaw), c = std::cos(at.yaw);
+    std::vector<glm::vec3> spots;
+    for (int vertex = 0; vertex < table.vertex_count; vertex += stride) {
         const glm::vec3 p = motion::unpack_position(table.vertices[pose * table.vertex_count + vertex], table.box);
-        const glm::vec3 turned(c * p.x + s * p.z, p.y, c * p.z - s * p.x);
-        const glm::vec4 clip =
-            view.clip_from_camera_relative * glm::vec4(view.relative(placement.position) + scale * turned, 1.0f);
-        if (std::abs(clip.x) < clip.w && std::abs(clip.y) < clip.w && clip.z < clip.w) return true;
+        spots.push_back(at.position + scale * glm::vec3(c * p.x + s * p.z, p.y, c * p.z - s * p.x));
     }
-    return false;
+    return spots;
+}
+
+// Every vertex of a person, projected: the slow truth about who shows.
+bool some_vertex_shows(const render::View& view, std::size_t person, std::int64_t tick) {
+    const std::vector<glm::vec3> surface = surface_of(person, tick, 1);
+    return std::any_of(surface.begin(), surface.end(), [&](const glm::vec3& spot) {
+        const glm::vec4 clip = view.clip_from_camera_relative * glm::vec4(view.relative(spot), 1.0f);
+        return std::abs(clip.x) < clip.w && std::abs(clip.y) < clip.w && clip.z < clip.w;
+    });
 }
 
 TEST(Selection, NeverDropsSomeoneWhoShows) {
@@ -287,26 +294,12 @@ double measured_displacement(const render::View& view, double motion_distance) {
     constexpr std::size_t person_stride = 7;
     constexpr int vertex_stride = 41, looks = 60;
     const tests::SmallScene& scene = small_scene();
-    const motion::PoseTable& table = scene.poses[0];
-    const auto surface = [&](std::size_t person, std::int64_t tick) {
-        const scene::Placement at = scene::place(scene.crowd, person, scene.cast[0], tick);
-        const scene::Action action = scene::act(scene.crowd, person, scene.cast[0], table, tick);
-        const int pose = table.pose_at(action.clip, action.clip_tick);
-        const float scale = scene.crowd.height[person] / table.rest_height;
-        std::vector<glm::vec3> spots;
-        for (int v = 0; v < table.vertex_count; v += vertex_stride) {
-            const glm::vec3 p = motion::unpack_position(table.vertices[pose * table.vertex_count + v], table.box);
-            const float s = std::sin(at.yaw), c = std::cos(at.yaw);
-            spots.push_back(at.position + scale * glm::vec3(c * p.x + s * p.z, p.y, c * p.z - s * p.x));
-        }
-        return spots;
-    };
     double displaced = 0;
     std::int64_t people = 0;
     for (int look = 0; look < looks; ++look) {
         const std::int64_t tick = 597 * look;
         for (std::size_t person = look % person_stride; person < scene.crowd.size(); person += person_stride) {
-            const std::vector<glm::vec3> now = surface(person, tick);
+            const std::vector<glm::vec3> now = surface_of(person, tick, vertex_stride);
             const glm::vec3 middle = view.relative(now[now.size() / 2]);
             if (!render::sphere_visible(view, middle, 0.5f)) continue;
             ++people;
@@ -314,7 +307,7 @@ double measured_displacement(const render::View& view, double motion_distance) {
             const int period = motion::update_period(depth, static_cast<float>(motion_distance));
             if (period == 1) continue;
             const std::vector<glm::vec3> old =
-                surface(person, motion::due_tick(tick, period, scene.crowd.hash[person]));
+                surface_of(person, motion::due_tick(tick, period, scene.crowd.hash[person]), vertex_stride);
             double moved = 0;
             for (std::size_t spot = 0; spot < now.size(); ++spot)
                 moved += static_cast<double>(glm::distance(now[spot], old[spot])) / static_cast<double>(now.size());
