@@ -19,8 +19,8 @@
 #include "apps/places.h"
 #include "apps/program.h"
 #include "apps/progress.h"
+#include "model/io/mesh_file.h"
 #include "motion/pose.h"
-#include "pointsample/mesh_file.h"
 #include "pointsample/model_key.h"
 #include "pointsample/point_model.h"
 #include "pointsample/points_file.h"
@@ -112,14 +112,14 @@ PoseChoice parse_pose(const std::string& text) {
     return choice;
 }
 
-const motion::Clip& find_clip(const motion::Character& character, const std::string& wanted) {
-    for (const motion::Clip& clip : character.clips)
+const model::Clip& find_clip(const model::Character& character, const std::string& wanted) {
+    for (const model::Clip& clip : character.clips)
         if (clip.name == wanted) return clip;
     const bool digits = !wanted.empty() && wanted.find_first_not_of("0123456789") == std::string::npos;
     if (digits && wanted.size() < 9 && std::stoul(wanted) < character.clips.size())
         return character.clips[std::stoul(wanted)];
     std::string names;
-    for (const motion::Clip& clip : character.clips) names += (names.empty() ? "" : ", ") + clip.name;
+    for (const model::Clip& clip : character.clips) names += (names.empty() ? "" : ", ") + clip.name;
     throw std::runtime_error(
         "--pose: found no clip '" + wanted + "', expected " +
         (character.clips.empty() ? "none, as the file has no clips"
@@ -127,7 +127,7 @@ const motion::Clip& find_clip(const motion::Character& character, const std::str
 }
 
 // The first is the pose that the points are given in.
-std::vector<pointsample::PosedMesh> poses_of(const motion::Character& character, const Options& options) {
+std::vector<pointsample::PosedMesh> poses_of(const model::Character& character, const Options& options) {
     if (!options.pose) {
         std::vector<pointsample::PosedMesh> poses = pointsample::spread_poses(character, {}, 1);
         if (!options.all_clips) return poses;
@@ -171,7 +171,7 @@ Json json_of(const glm::vec3& v) {
     return {v.x, v.y, v.z};
 }
 
-Json stats_of(const motion::Mesh& mesh, const motion::Bounds& bounds, const pointsample::PointModel& model,
+Json stats_of(const model::Mesh& mesh, const motion::Bounds& bounds, const pointsample::PointModel& model,
               double seconds) {
     Json stats;
     stats["triangles"] = mesh.triangle_count();
@@ -196,7 +196,7 @@ void run(const Options& options) {
     std::optional<apps::OutputFile> stats;
     if (!options.stats.empty()) stats.emplace(options.stats);
 
-    const motion::Character character = pointsample::load_mesh(options.input);
+    const model::Character character = model::load_mesh(options.input);
     const std::vector<pointsample::PosedMesh> poses = poses_of(character, options);
     const pointsample::SampleOptions wanted{static_cast<std::size_t>(options.points), options.seed, options.order(),
                                             options.visible_only};

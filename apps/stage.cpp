@@ -4,7 +4,7 @@
 
 #include "apps/interrupt.h"
 #include "apps/progress.h"
-#include "pointsample/mesh_file.h"
+#include "model/io/mesh_file.h"
 #include "pointsample/model_key.h"
 #include "pointsample/posed_mesh.h"
 #include "pointsample/sample.h"
@@ -19,13 +19,13 @@ namespace {
 constexpr std::size_t pose_byte_budget = std::size_t{256} << 20;
 
 // More points than half its triangles are never drawn of a character: triangles are cheaper then (SelectOptions).
-std::size_t point_count(const motion::Mesh& mesh) {
+std::size_t point_count(const model::Mesh& mesh) {
     constexpr std::size_t fewest = 64, most = 16384;
     return std::clamp(mesh.triangle_count() / 2, fewest, most);
 }
 
 // The first pose is the one that most people are seen in, where limbs are apart.
-pointsample::PointModel sample_points(const motion::Character& character, const std::vector<int>& clips,
+pointsample::PointModel sample_points(const model::Character& character, const std::vector<int>& clips,
                                       std::uint64_t seed, const PointCache& cache) {
     constexpr std::size_t pose_count = 16;
     pointsample::SampleOptions options;
@@ -39,7 +39,7 @@ pointsample::PointModel sample_points(const motion::Character& character, const 
     });
 }
 
-void add_character(Stage& stage, motion::Character character, std::uint64_t seed, std::size_t byte_budget,
+void add_character(Stage& stage, model::Character character, std::uint64_t seed, std::size_t byte_budget,
                    const PointCache& cache) {
     scene::Casting casting = scene::cast(character);
     stage.points.push_back(sample_points(character, casting.clips, seed, cache));
@@ -71,7 +71,7 @@ std::unique_ptr<Stage> build_stage(const std::vector<std::filesystem::path>& cha
     auto stage = std::make_unique<Stage>();
     if (character_files.empty()) add_character(*stage, scene::make_person(), seed, pose_byte_budget, cache);
     for (const std::filesystem::path& file : character_files)
-        add_character(*stage, pointsample::load_mesh(file), seed, pose_byte_budget / character_files.size(), cache);
+        add_character(*stage, model::load_mesh(file), seed, pose_byte_budget / character_files.size(), cache);
     throw_if_interrupted();
     ProgressBar bar("Seating the crowd");
     stage->plan = scene::plan_stadium(people, scene::room_for(stage->cast, stage->poses));

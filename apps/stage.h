@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "apps/point_cache.h"
-#include "motion/mesh.h"
+#include "model/mesh.h"
 #include "motion/pose_table.h"
 #include "pointsample/point_model.h"
 #include "render/frame.h"
@@ -22,7 +22,7 @@ struct Stage {
     scene::StadiumPlan plan;
     scene::StaticMesh structure;
     // One element a character.
-    std::vector<motion::Mesh> meshes;
+    std::vector<model::Mesh> meshes;
     std::vector<pointsample::PointModel> points;
     std::vector<scene::CastMember> cast;
     std::vector<motion::PoseTable> poses;

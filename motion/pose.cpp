@@ -53,7 +53,7 @@ glm::quat slerp_shortest(const glm::quat& from, glm::quat to, float fraction) {
 // Reads one channel whose keys have `width` floats each.
 class ChannelReader {
 public:
-    ChannelReader(const Channel& channel, std::size_t width) : channel_(channel), width_(width) {
+    ChannelReader(const model::Channel& channel, std::size_t width) : channel_(channel), width_(width) {
         const std::size_t stride = width * parts();
         key_count_ = stride == 0 ? 0 : std::min(channel.times.size(), channel.values.size() / stride);
     }
@@ -68,10 +68,10 @@ public:
     // Component `at` on `segment`, by the channel's interpolation, component by component.
     float interpolate(const Segment& segment, std::size_t at) const {
         const float a = value(segment.left, at);
-        if (segment.left == segment.right || channel_.interpolation == Interpolation::step) return a;
+        if (segment.left == segment.right || channel_.interpolation == model::Interpolation::step) return a;
         const float b = value(segment.right, at);
         const float s = segment.fraction;
-        if (channel_.interpolation == Interpolation::linear) return a + (b - a) * s;
+        if (channel_.interpolation == model::Interpolation::linear) return a + (b - a) * s;
         const float leaving = part(segment.left, 2, at) * segment.length;
         const float arriving = part(segment.right, 0, at) * segment.length;
         const float s2 = s * s, s3 = s2 * s;  // the Hermite basis, glTF 2.0 appendix C
@@ -79,30 +79,30 @@ public:
     }
 
 private:
-    std::size_t parts() const { return channel_.interpolation == Interpolation::cubic_spline ? 3 : 1; }
+    std::size_t parts() const { return channel_.interpolation == model::Interpolation::cubic_spline ? 3 : 1; }
 
     // A cubic spline's key holds in-tangent, value and out-tangent as parts 0, 1, 2.
     float part(std::size_t key, std::size_t which, std::size_t at) const {
         return channel_.values[(key * parts() + which) * width_ + at];
     }
 
-    const Channel& channel_;
+    const model::Channel& channel_;
     std::size_t width_;
     std::size_t key_count_ = 0;
 };
 
-glm::vec3 vector_at(const Channel& channel, double time, const glm::vec3& without_keys) {
+glm::vec3 vector_at(const model::Channel& channel, double time, const glm::vec3& without_keys) {
     const ChannelReader reader(channel, 3);
     if (reader.empty()) return without_keys;
     const Segment segment = reader.segment(time);
     return {reader.interpolate(segment, 0), reader.interpolate(segment, 1), reader.interpolate(segment, 2)};
 }
 
-glm::quat rotation_at(const Channel& channel, double time, const glm::quat& without_keys) {
+glm::quat rotation_at(const model::Channel& channel, double time, const glm::quat& without_keys) {
     const ChannelReader reader(channel, 4);
     if (reader.empty()) return without_keys;
     const Segment segment = reader.segment(time);
-    if (channel.interpolation == Interpolation::linear && segment.left != segment.right) {
+    if (channel.interpolation == model::Interpolation::linear && segment.left != segment.right) {
         const auto key = [&](std::size_t i) {
             return normalized_or_identity(
                 {reader.value(i, 3), reader.value(i, 0), reader.value(i, 1), reader.value(i, 2)});
@@ -113,10 +113,10 @@ glm::quat rotation_at(const Channel& channel, double time, const glm::quat& with
                                    reader.interpolate(segment, 1), reader.interpolate(segment, 2)});
 }
 
-void apply_morph_weights(const Channel& channel, double time, const std::vector<MorphTarget>& morphs,
+void apply_morph_weights(const model::Channel& channel, double time, const std::vector<model::MorphTarget>& morphs,
                          std::vector<float>& weights) {
     if (channel.times.empty()) return;
-    const std::size_t parts = channel.interpolation == Interpolation::cubic_spline ? 3 : 1;
+    const std::size_t parts = channel.interpolation == model::Interpolation::cubic_spline ? 3 : 1;
     const std::size_t slots = channel.values.size() / (channel.times.size() * parts);
     const ChannelReader reader(channel, slots);
     if (reader.empty()) return;
@@ -127,7 +127,7 @@ void apply_morph_weights(const Channel& channel, double time, const std::vector<
     }
 }
 
-glm::mat4 matrix_of(const Transform& transform) {
+glm::mat4 matrix_of(const model::Transform& transform) {
     glm::mat4 matrix = glm::mat4_cast(transform.rotation);
     for (int axis = 0; axis < 3; ++axis) matrix[axis] *= transform.scale[axis];
     matrix[3] = glm::vec4(transform.translation, 1.0f);
@@ -135,8 +135,8 @@ glm::mat4 matrix_of(const Transform& transform) {
 }
 
 // `out.world` holds local matrices on entry.
-void resolve_hierarchy(const Character& character, Pose& out) {
-    const Skeleton& skeleton = character.skeleton;
+void resolve_hierarchy(const model::Character& character, Pose& out) {
+    const model::Skeleton& skeleton = character.skeleton;
     for (std::size_t i = 0; i < skeleton.nodes.size(); ++i) {
         const std::int32_t parent = skeleton.nodes[i].parent;
         assert(parent < static_cast<std::int32_t>(i));
@@ -144,16 +144,16 @@ void resolve_hierarchy(const Character& character, Pose& out) {
     }
     out.palette.resize(skeleton.palette.size());
     for (std::size_t i = 0; i < skeleton.palette.size(); ++i) {
-        const PaletteEntry& entry = skeleton.palette[i];
+        const model::PaletteEntry& entry = skeleton.palette[i];
         out.palette[i] = out.world[static_cast<std::size_t>(entry.node)] * entry.inverse_bind;
     }
 }
 
-void start_from_rest(const Character& character, Pose& out) {
+void start_from_rest(const model::Character& character, Pose& out) {
     out.world.clear();
-    for (const Node& node : character.skeleton.nodes) out.world.push_back(node.rest_matrix);
+    for (const model::Node& node : character.skeleton.nodes) out.world.push_back(node.rest_matrix);
     out.morph_weights.clear();
-    for (const MorphTarget& morph : character.mesh.morphs) out.morph_weights.push_back(morph.rest_weight);
+    for (const model::MorphTarget& morph : character.mesh.morphs) out.morph_weights.push_back(morph.rest_weight);
 }
 
 void add_offsets(const std::vector<glm::vec3>& offsets, float weight, std::size_t first, std::vector<glm::vec3>& to) {
@@ -168,7 +168,7 @@ glm::mat3 normal_matrix(const glm::mat3& m) {
     return glm::dot(m[0], cofactors[0]) < 0.0f ? -cofactors : cofactors;
 }
 
-glm::mat4 blended_matrix(const Mesh& mesh, const Pose& pose, std::size_t vertex) {
+glm::mat4 blended_matrix(const model::Mesh& mesh, const Pose& pose, std::size_t vertex) {
     glm::mat4 blend(0.0f);
     for (int i = 0; i < 4; ++i) {
         const float weight = mesh.weights[vertex][i];
@@ -179,28 +179,28 @@ glm::mat4 blended_matrix(const Mesh& mesh, const Pose& pose, std::size_t vertex)
 
 }  // namespace
 
-void evaluate_rest(const Character& character, Pose& out) {
+void evaluate_rest(const model::Character& character, Pose& out) {
     start_from_rest(character, out);
     resolve_hierarchy(character, out);
 }
 
-void evaluate(const Character& character, const Clip& clip, double time, Pose& out) {
+void evaluate(const model::Character& character, const model::Clip& clip, double time, Pose& out) {
     start_from_rest(character, out);
-    const std::vector<Node>& nodes = character.skeleton.nodes;
-    std::vector<Transform> locals(nodes.size());
+    const std::vector<model::Node>& nodes = character.skeleton.nodes;
+    std::vector<model::Transform> locals(nodes.size());
     std::vector<bool> driven(nodes.size(), false);
-    for (const Channel& channel : clip.channels) {
-        if (channel.path == Path::morph_weights) {
+    for (const model::Channel& channel : clip.channels) {
+        if (channel.path == model::Path::morph_weights) {
             apply_morph_weights(channel, time, character.mesh.morphs, out.morph_weights);
             continue;
         }
         const std::size_t node = static_cast<std::size_t>(channel.node);
-        Transform& local = locals[node];
+        model::Transform& local = locals[node];
         if (!driven[node]) local = nodes[node].rest;
         driven[node] = true;
-        if (channel.path == Path::translation) local.translation = vector_at(channel, time, local.translation);
-        if (channel.path == Path::rotation) local.rotation = rotation_at(channel, time, local.rotation);
-        if (channel.path == Path::scale) local.scale = vector_at(channel, time, local.scale);
+        if (channel.path == model::Path::translation) local.translation = vector_at(channel, time, local.translation);
+        if (channel.path == model::Path::rotation) local.rotation = rotation_at(channel, time, local.rotation);
+        if (channel.path == model::Path::scale) local.scale = vector_at(channel, time, local.scale);
     }
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         if (driven[i]) out.world[i] = matrix_of(locals[i]);
@@ -208,11 +208,12 @@ void evaluate(const Character& character, const Clip& clip, double time, Pose& o
     resolve_hierarchy(character, out);
 }
 
-void skin(const Mesh& mesh, const Pose& pose, std::vector<glm::vec3>& positions, std::vector<glm::vec3>& normals) {
+void skin(const model::Mesh& mesh, const Pose& pose, std::vector<glm::vec3>& positions,
+          std::vector<glm::vec3>& normals) {
     positions = mesh.positions;
     normals = mesh.normals;
     for (std::size_t i = 0; i < mesh.morphs.size(); ++i) {
-        const MorphTarget& morph = mesh.morphs[i];
+        const model::MorphTarget& morph = mesh.morphs[i];
         if (pose.morph_weights[i] == 0.0f) continue;
         add_offsets(morph.position_offsets, pose.morph_weights[i], morph.first_vertex, positions);
         add_offsets(morph.normal_offsets, pose.morph_weights[i], morph.first_vertex, normals);

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "motion/character.h"
+#include "model/character.h"
 
 namespace motion {
 
@@ -13,18 +13,19 @@ namespace motion {
 struct Pose {
     std::vector<glm::mat4> world;      // one a node
     std::vector<glm::mat4> palette;    // one a palette entry
-    std::vector<float> morph_weights;  // one a Mesh::morphs element
+    std::vector<float> morph_weights;  // one a model::Mesh::morphs element
 };
 
 // The rest pose of the file.
-void evaluate_rest(const Character& character, Pose& out);
+void evaluate_rest(const model::Character& character, Pose& out);
 
 // The pose of `clip` at `time` [s], clamped to the clip's keys. Quaternions take the shorter arc.
-void evaluate(const Character& character, const Clip& clip, double time, Pose& out);
+void evaluate(const model::Character& character, const model::Clip& clip, double time, Pose& out);
 
 // Linear-blend skinning of every vertex: positions and unit normals (transformed by the adjugate's rotation
 // part, so that mirrored and unevenly scaled joints keep outward normals). Outputs are resized.
-void skin(const Mesh& mesh, const Pose& pose, std::vector<glm::vec3>& positions, std::vector<glm::vec3>& normals);
+void skin(const model::Mesh& mesh, const Pose& pose, std::vector<glm::vec3>& positions,
+          std::vector<glm::vec3>& normals);
 
 struct Bounds {
     glm::vec3 min{0.0f}, max{0.0f};

@@ -21,7 +21,7 @@ constexpr float position_steps = 65535.0f;  // of a 16-bit unorm
 // 200 days: more is a damaged file, and is cut. Half of what an int holds, so that rounding a period up fits too.
 constexpr std::int64_t longest_clip_ticks = std::int64_t{1} << 30;
 
-std::int64_t clip_ticks(const Clip& clip) {
+std::int64_t clip_ticks(const model::Clip& clip) {
     const double ticks = std::round(clip.duration * ticks_per_second);
     if (!(ticks >= 1)) return 1;
     return ticks < static_cast<double>(longest_clip_ticks) ? static_cast<std::int64_t>(ticks) : longest_clip_ticks;
@@ -48,8 +48,8 @@ std::int64_t choose_ticks_per_pose(const std::vector<std::int64_t>& lengths, std
     return enough;
 }
 
-std::vector<ClipPoses> lay_out(const Character& character, std::span<const int> clips, std::size_t bytes_per_pose,
-                               std::size_t byte_budget) {
+std::vector<ClipPoses> lay_out(const model::Character& character, std::span<const int> clips,
+                               std::size_t bytes_per_pose, std::size_t byte_budget) {
     std::vector<std::int64_t> lengths;
     for (const int clip : clips) lengths.push_back(clip_ticks(character.clips.at(static_cast<std::size_t>(clip))));
     if (lengths.empty()) lengths.push_back(1);
@@ -82,8 +82,8 @@ struct PosedMesh {
 };
 
 // Pose number `index` of the table.
-void strike(const Character& character, std::span<const int> clips, const std::vector<ClipPoses>& layout, int index,
-            PosedMesh& out) {
+void strike(const model::Character& character, std::span<const int> clips, const std::vector<ClipPoses>& layout,
+            int index, PosedMesh& out) {
     if (clips.empty()) {
         evaluate_rest(character, out.pose);
     } else {
@@ -92,13 +92,13 @@ void strike(const Character& character, std::span<const int> clips, const std::v
         const std::size_t slot = static_cast<std::size_t>(after - layout.begin()) - 1;
         const std::int64_t tick =
             static_cast<std::int64_t>(index - layout[slot].first_pose) * layout[slot].ticks_per_pose;
-        const Clip& clip = character.clips[static_cast<std::size_t>(clips[slot])];
+        const model::Clip& clip = character.clips[static_cast<std::size_t>(clips[slot])];
         evaluate(character, clip, static_cast<double>(tick) / ticks_per_second, out.pose);
     }
     skin(character.mesh, out.pose, out.positions, out.normals);
 }
 
-double area_of(const Mesh& mesh, const std::vector<glm::vec3>& positions) {
+double area_of(const model::Mesh& mesh, const std::vector<glm::vec3>& positions) {
     double twice = 0;
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         const glm::vec3 a = positions[mesh.indices[i]];
@@ -130,7 +130,7 @@ Bounds merged(const Bounds& a, const Bounds& b) {
 }
 
 // First pass: the boxes, the height and the area, which the packing needs beforehand.
-void measure(const Character& character, std::span<const int> clips, const std::function<void(double)>& progress,
+void measure(const model::Character& character, std::span<const int> clips, const std::function<void(double)>& progress,
              PoseTable& table) {
     std::vector<Bounds> boxes(static_cast<std::size_t>(table.pose_count));
     std::vector<double> areas(boxes.size());
@@ -168,7 +168,7 @@ PosedVertex pack(const glm::vec3& position, const glm::vec3& normal, const Bound
             pack_unorm(position.z, box.min.z, size.z), packed.u, packed.v};
 }
 
-PosedVertex pack_point(const Mesh& mesh, const PosedMesh& posed, const SurfacePoint& point, const Bounds& box) {
+PosedVertex pack_point(const model::Mesh& mesh, const PosedMesh& posed, const SurfacePoint& point, const Bounds& box) {
     const std::uint32_t* corner = &mesh.indices[std::size_t{3} * point.triangle];
     const float w = 1.0f - point.u - point.v;
     const auto blend = [&](const std::vector<glm::vec3>& of) {
@@ -178,7 +178,7 @@ PosedVertex pack_point(const Mesh& mesh, const PosedMesh& posed, const SurfacePo
 }
 
 // Second pass: every pose again, now into its place.
-void pack_poses(const Character& character, std::span<const int> clips, std::span<const SurfacePoint> points,
+void pack_poses(const model::Character& character, std::span<const int> clips, std::span<const SurfacePoint> points,
                 const std::function<void(double)>& progress, PoseTable& table) {
     const std::size_t vertex_count = character.mesh.vertex_count();
     table.vertices.resize(static_cast<std::size_t>(table.pose_count) * vertex_count);
@@ -203,9 +203,10 @@ int PoseTable::pose_at(int clip, std::int64_t tick) const {
     return poses.first_pose + static_cast<int>(in_period / poses.ticks_per_pose);
 }
 
-PoseTable bake_poses(const Character& character, std::span<const int> clips, std::span<const SurfacePoint> points,
-                     std::size_t byte_budget, const std::function<void(double)>& progress) {
-    const Mesh& mesh = character.mesh;
+PoseTable bake_poses(const model::Character& character, std::span<const int> clips,
+                     std::span<const SurfacePoint> points, std::size_t byte_budget,
+                     const std::function<void(double)>& progress) {
+    const model::Mesh& mesh = character.mesh;
     if (mesh.triangle_count() == 0 || mesh.vertex_count() == 0)
         throw std::runtime_error(character.name + ": found no triangle; expected a mesh to bake");
     PoseTable table;

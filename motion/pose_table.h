@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "motion/character.h"
+#include "model/character.h"
 #include "motion/pose.h"
 
 namespace motion {
@@ -54,8 +54,9 @@ struct PoseTable {
 // whole poses (at least one), and the pose at the duration is the first again. The same bits on every thread count.
 // `points` may be empty. `progress` gets fractions in [0, 1]. Throws std::runtime_error if even one pose a clip is more
 // than the budget, or if the mesh is empty or flat in every pose.
-PoseTable bake_poses(const Character& character, std::span<const int> clips, std::span<const SurfacePoint> points,
-                     std::size_t byte_budget, const std::function<void(double)>& progress = {});
+PoseTable bake_poses(const model::Character& character, std::span<const int> clips,
+                     std::span<const SurfacePoint> points, std::size_t byte_budget,
+                     const std::function<void(double)>& progress = {});
 
 // What the shaders do, for tests and CPU paths.
 glm::vec3 unpack_position(const PosedVertex& vertex, const Bounds& box);

@@ -9,17 +9,17 @@
 #include <cstddef>
 #include <utility>
 
-#include "pointsample/srgb.h"
+#include "model/srgb.h"
 
 namespace pointsample {
 namespace {
 
-using motion::Mesh;
+using model::Mesh;
 using motion::SurfacePoint;
 
 // Linear light.
 glm::vec3 linear(const glm::u8vec4& color) {
-    return {linear_of_srgb(color.r), linear_of_srgb(color.g), linear_of_srgb(color.b)};
+    return {model::linear_of_srgb(color.r), model::linear_of_srgb(color.g), model::linear_of_srgb(color.b)};
 }
 
 // In [0, 1]. Between corners at the largest floats lie sums that overflow.
@@ -29,7 +29,7 @@ float wrapped(float coordinate) {
 }
 
 // Bilinear, wrapping, in linear light.
-glm::vec3 texture_at(const motion::Texture& texture, const glm::vec2& uv) {
+glm::vec3 texture_at(const model::Texture& texture, const glm::vec2& uv) {
     const glm::vec2 size(texture.width, texture.height);
     const glm::vec2 at = glm::vec2(wrapped(uv.x), wrapped(uv.y)) * size - 0.5f;
     const glm::vec2 corner = glm::floor(at), s = at - corner;
@@ -75,9 +75,9 @@ glm::u8vec4 color_of(const Mesh& mesh, const Corners& corners) {
     glm::vec3 light = corners.blend([&](std::uint32_t i) { return linear(mesh.colors[i]); });
     const float alpha = corners.blend([&](std::uint32_t i) { return static_cast<float>(mesh.colors[i].a); });
     const std::uint8_t texture = mesh.texture_ids[corners.vertex[0]];
-    if (texture != motion::no_texture)
+    if (texture != model::no_texture)
         light *= texture_at(mesh.textures[texture], corners.blend([&](std::uint32_t i) { return mesh.uvs[i]; }));
-    return {srgb_of_linear(light.r), srgb_of_linear(light.g), srgb_of_linear(light.b),
+    return {model::srgb_of_linear(light.r), model::srgb_of_linear(light.g), model::srgb_of_linear(light.b),
             static_cast<std::uint8_t>(std::min(alpha + 0.5f, 255.0f))};
 }
 

@@ -1,7 +1,7 @@
 // What a surface point looks like and how it moves, from the corners of its triangle.
 #pragma once
 
-#include "motion/mesh.h"
+#include "model/mesh.h"
 #include "pointsample/point_model.h"
 #include "pointsample/posed_mesh.h"
 
@@ -10,6 +10,6 @@ namespace pointsample {
 // Fills positions, normals, colours, tints, joints and weights of the model's surface points: positions and normals are
 // the pose's, colours are texture times vertex colour in linear light, a tint is the nearest corner's, and influences
 // are the four heaviest of the corners' together. In parallel; each point depends on itself alone.
-void describe(const motion::Mesh& mesh, const PosedMesh& pose, PointModel& model);
+void describe(const model::Mesh& mesh, const PosedMesh& pose, PointModel& model);
 
 }  // namespace pointsample

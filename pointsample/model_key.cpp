@@ -43,7 +43,7 @@ private:
 
 }  // namespace
 
-std::string model_key(const motion::Mesh& mesh, std::span<const PosedMesh> poses, const SampleOptions& options) {
+std::string model_key(const model::Mesh& mesh, std::span<const PosedMesh> poses, const SampleOptions& options) {
     Hasher hasher;
     hasher.add(sampler_version);
     hasher.add(static_cast<std::uint64_t>(options.count));
@@ -62,7 +62,7 @@ std::string model_key(const motion::Mesh& mesh, std::span<const PosedMesh> poses
     hasher.add(mesh.joints);
     hasher.add(mesh.weights);
     hasher.add(mesh.double_sided);
-    for (const motion::Texture& texture : mesh.textures) {
+    for (const model::Texture& texture : mesh.textures) {
         hasher.add(texture.width);
         hasher.add(texture.height);
         hasher.add(texture.texels);

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "motion/mesh.h"
+#include "model/mesh.h"
 #include "pointsample/sample.h"
 
 namespace pointsample {
@@ -14,6 +14,6 @@ inline constexpr int sampler_version = 2;
 
 // 32 hexadecimal digits (XXH3, 128 bits) of all that sample() reads: the poses, the triangles, their looks and
 // influences, the options and the sampler's version. Two inputs that differ share a key by chance alone.
-std::string model_key(const motion::Mesh& mesh, std::span<const PosedMesh> poses, const SampleOptions& options);
+std::string model_key(const model::Mesh& mesh, std::span<const PosedMesh> poses, const SampleOptions& options);
 
 }  // namespace pointsample

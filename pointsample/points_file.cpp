@@ -16,13 +16,15 @@
 #include <system_error>
 #include <vector>
 
+#include "model/input_file.h"
 #include "motion/octahedral.h"
-#include "pointsample/input_file.h"
 #include "pointsample/points_layout.h"
 #include "pointsample/points_pack.h"
 
 namespace pointsample {
 namespace {
+
+using model::fail;
 
 static_assert(sizeof(PackedPoint) == element_bytes[drawn_section]);
 static_assert(sizeof(Coverage) == element_bytes[coverage_section]);
@@ -157,8 +159,8 @@ glm::vec3 position_of(const PackedPoint& point, const motion::Bounds& box) {
 }  // namespace
 
 PointsFile::PointsFile(const std::filesystem::path& path) {
-    with_name(path, [&] {
-        const InputFile file(path, "a .pts file");
+    model::with_name(path, [&] {
+        const model::InputFile file(path, "a .pts file");
         size_ = static_cast<std::size_t>(file.left());
         if (size_ < layout_of(0, 0, 0).file_bytes())
             fail(std::to_string(size_) + " bytes",
@@ -202,8 +204,8 @@ void PointsFile::check_values() const {
     if (!(header.area >= 0.0f) || !std::isfinite(header.area)) fail("no area", "a number from 0");
     for (const PackedPoint& point : points()) {
         if (point.normal_u == -128 || point.normal_v == -128) fail("a normal beyond -1", "-127 to 127");
-        if (point.tint >= motion::tint_count)
-            fail("tint " + std::to_string(point.tint), "below " + std::to_string(motion::tint_count));
+        if (point.tint >= model::tint_count)
+            fail("tint " + std::to_string(point.tint), "below " + std::to_string(model::tint_count));
     }
     for (const Barycentrics& uv : section_of<Barycentrics>(bytes_, uv_section))
         if (std::uint32_t{uv[0]} + uv[1] > unorm_steps) fail("a point outside its triangle", "u + v of at most 1");
@@ -243,7 +245,7 @@ PointModel PointsFile::unpack() const {
         model.positions.push_back(position_of(point, whole));
         model.normals.push_back(motion::unpack_normal(motion::OctahedralNormal{point.normal_u, point.normal_v}));
         model.colors.emplace_back(point.red, point.green, point.blue, alphas[i]);
-        model.tints.push_back(static_cast<motion::Tint>(point.tint));
+        model.tints.push_back(static_cast<model::Tint>(point.tint));
     }
     for (const Joints& joints : section_of<Joints>(bytes_, joint_section))
         model.joints.emplace_back(joints[0], joints[1], joints[2], joints[3]);

@@ -6,7 +6,7 @@
 
 namespace pointsample {
 
-std::vector<PosedMesh> spread_poses(const motion::Character& character, std::span<const int> clips, std::size_t count) {
+std::vector<PosedMesh> spread_poses(const model::Character& character, std::span<const int> clips, std::size_t count) {
     assert(count >= 1);
     std::vector<PosedMesh> poses(clips.empty() ? 1 : count);
     for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -14,7 +14,7 @@ std::vector<PosedMesh> spread_poses(const motion::Character& character, std::spa
         if (clips.empty()) {
             motion::evaluate_rest(character, pose);
         } else {
-            const motion::Clip& clip = character.clips[static_cast<std::size_t>(clips[i % clips.size()])];
+            const model::Clip& clip = character.clips[static_cast<std::size_t>(clips[i % clips.size()])];
             const std::size_t rounds = (poses.size() + clips.size() - 1) / clips.size();
             const double share = static_cast<double>(i / clips.size()) / static_cast<double>(rounds);
             motion::evaluate(character, clip, share * clip.duration, pose);

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "motion/character.h"
+#include "model/character.h"
 #include "motion/pose_table.h"
 
 namespace pointsample {
@@ -18,7 +18,7 @@ struct PosedMesh {
 
 // `count` >= 1 poses spread over the clips (indices into character.clips; none: the rest pose alone), the first clip's
 // first frame first.
-std::vector<PosedMesh> spread_poses(const motion::Character& character, std::span<const int> clips, std::size_t count);
+std::vector<PosedMesh> spread_poses(const model::Character& character, std::span<const int> clips, std::size_t count);
 
 // A point of the surface in one pose.
 struct Place {

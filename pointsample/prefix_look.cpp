@@ -24,7 +24,7 @@ std::size_t nearest(const PointModel& model, std::size_t point, std::size_t coun
 
 struct Sum {
     glm::vec3 light{0.0f};  // the shaders' linear: sRGB squared, each in [0, 1]
-    std::array<float, motion::tint_count> tint{};
+    std::array<float, model::tint_count> tint{};
     float points = 0;
 };
 

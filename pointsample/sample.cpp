@@ -245,7 +245,7 @@ Draft make_draft(const Job& job) {
 
 }  // namespace
 
-PointModel sample(const motion::Mesh& mesh, std::span<const PosedMesh> poses, const SampleOptions& options,
+PointModel sample(const model::Mesh& mesh, std::span<const PosedMesh> poses, const SampleOptions& options,
                   const std::function<void(double)>& report) {
     assert(options.count >= 1 && !poses.empty());
     Progress progress(report);

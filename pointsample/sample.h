@@ -6,7 +6,7 @@
 #include <functional>
 #include <span>
 
-#include "motion/mesh.h"
+#include "model/mesh.h"
 #include "pointsample/point_model.h"
 #include "pointsample/posed_mesh.h"
 
@@ -37,7 +37,7 @@ struct SampleOptions {
 // and, if visible_only, 100 a triangle for each pose that is needed to see whether points are hidden.
 // Throws std::runtime_error if no triangle has an area, if all together have one of 3.4e38 or more, or if less than a
 // thousandth of it is visible.
-PointModel sample(const motion::Mesh& mesh, std::span<const PosedMesh> poses, const SampleOptions& options,
+PointModel sample(const model::Mesh& mesh, std::span<const PosedMesh> poses, const SampleOptions& options,
                   const std::function<void(double)>& progress = {});
 
 }  // namespace pointsample

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "motion/character.h"
+#include "model/character.h"
 #include "motion/pose_table.h"
 #include "pointsample/point_model.h"
 #include "render/gl.h"
@@ -19,7 +19,7 @@ namespace render {
 
 // A character ready to be drawn; what it points at is needed only while the Renderer is made.
 struct FigureAssets {
-    const motion::Mesh* mesh = nullptr;
+    const model::Mesh* mesh = nullptr;
     const motion::PoseTable* poses = nullptr;  // baked with the model's points
     const pointsample::PointModel* points = nullptr;
 };

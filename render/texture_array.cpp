@@ -13,7 +13,7 @@ namespace render {
 namespace {
 
 // `texture` stretched to size x size by the mean of the texels under each new one (or the nearest, when it grows).
-std::vector<glm::u8vec4> resample(const motion::Texture& texture, int size) {
+std::vector<glm::u8vec4> resample(const model::Texture& texture, int size) {
     std::vector<glm::u8vec4> out(static_cast<std::size_t>(size) * size);
     for (int y = 0; y < size; ++y) {
         const int y0 = y * texture.height / size;
@@ -32,13 +32,13 @@ std::vector<glm::u8vec4> resample(const motion::Texture& texture, int size) {
 
 }  // namespace
 
-TextureObject make_texture_array(std::span<const motion::Texture> textures) {
+TextureObject make_texture_array(std::span<const model::Texture> textures) {
     if (textures.size() > no_layer)
         throw std::runtime_error("character: found " + std::to_string(textures.size()) +
                                  " textures, expected at most " + std::to_string(no_layer));
     constexpr unsigned largest_side = 1024;
     unsigned side = 1;
-    for (const motion::Texture& texture : textures)
+    for (const model::Texture& texture : textures)
         side = std::max({side, static_cast<unsigned>(texture.width), static_cast<unsigned>(texture.height)});
     const int size = static_cast<int>(std::min(std::bit_ceil(side), largest_side));
 

@@ -3,13 +3,13 @@
 
 #include <span>
 
-#include "motion/mesh.h"
+#include "model/mesh.h"
 #include "render/gl.h"
 
 namespace render {
 
 // Layers are square powers of two with mipmaps, as large as the largest texture, at most 1024 texels; smaller ones are
 // stretched. Throws std::runtime_error beyond 31 textures, which is what a vertex can name.
-TextureObject make_texture_array(std::span<const motion::Texture> textures);
+TextureObject make_texture_array(std::span<const model::Texture> textures);
 
 }  // namespace render

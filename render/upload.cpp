@@ -27,7 +27,7 @@ static_assert(sizeof(BakedVertex) == 16);
 static_assert(offsetof(BakedVertex, red) == 8 && offsetof(BakedVertex, look) == 11 &&
               offsetof(BakedVertex, uv_or_shares) == 12);
 static_assert(offsetof(motion::PosedVertex, normal_u) == 6);
-static_assert(motion::tint_count == 5, "four shares of the palette, and the rest untinted");
+static_assert(model::tint_count == 5, "four shares of the palette, and the rest untinted");
 
 constexpr GLuint vertex_binding = 0;
 constexpr GLuint instance_binding = 1;
@@ -40,7 +40,7 @@ Buffer upload(const std::vector<T>& data) {
     return buffer;
 }
 
-std::uint8_t look_of(motion::Tint tint, std::uint8_t layer) {
+std::uint8_t look_of(model::Tint tint, std::uint8_t layer) {
     return static_cast<std::uint8_t>(static_cast<unsigned>(tint) | (static_cast<unsigned>(layer) << look_tint_bits));
 }
 
@@ -64,20 +64,20 @@ Buffer upload_poses(const std::vector<motion::PosedVertex>& posed, int per_pose,
     return upload(baked);
 }
 
-std::vector<Record> vertex_records(const motion::Mesh& mesh) {
+std::vector<Record> vertex_records(const model::Mesh& mesh) {
     std::vector<Record> records;
     for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
         const glm::u8vec4 color = mesh.colors[v];
-        const std::uint8_t layer = mesh.texture_ids[v] == motion::no_texture ? no_layer : mesh.texture_ids[v];
+        const std::uint8_t layer = mesh.texture_ids[v] == model::no_texture ? no_layer : mesh.texture_ids[v];
         records.push_back(
             {v, {{}, color.r, color.g, color.b, look_of(mesh.tints[v], layer), glm::packHalf2x16(mesh.uvs[v])}});
     }
     return records;
 }
 
-std::uint32_t own_share(motion::Tint tint) {
+std::uint32_t own_share(model::Tint tint) {
     constexpr std::uint32_t whole = 255;
-    return tint == motion::Tint::none ? 0 : whole << (8 * (static_cast<unsigned>(tint) - 1));
+    return tint == model::Tint::none ? 0 : whole << (8 * (static_cast<unsigned>(tint) - 1));
 }
 
 // First the short prefixes with averaged looks, one after the other, then all points with their own: see
@@ -153,7 +153,7 @@ VertexArray make_point_array(const Buffer& points, const Buffer& instances) {
 }  // namespace
 
 Renderer::FigureObjects Renderer::upload_figure(const FigureAssets& assets) const {
-    const motion::Mesh& mesh = *assets.mesh;
+    const model::Mesh& mesh = *assets.mesh;
     FigureObjects figure;
     figure.textured = !mesh.textures.empty();
     figure.double_sided = mesh.double_sided;

@@ -19,14 +19,14 @@ std::string lower(std::string_view text) {
     return out;
 }
 
-std::optional<int> find_exactly(const motion::Character& character, std::string_view word) {
+std::optional<int> find_exactly(const model::Character& character, std::string_view word) {
     for (std::size_t i = 0; i < character.clips.size(); ++i)
         if (lower(character.clips[i].name) == word) return static_cast<int>(i);
     return std::nullopt;
 }
 
 // The shortest name that contains `word`: just the word, if there is one.
-std::optional<int> find(const motion::Character& character, std::string_view word) {
+std::optional<int> find(const model::Character& character, std::string_view word) {
     std::optional<int> best;
     for (std::size_t i = 0; i < character.clips.size(); ++i) {
         const std::string& name = character.clips[i].name;
@@ -37,7 +37,7 @@ std::optional<int> find(const motion::Character& character, std::string_view wor
 }
 
 // The first of `words` that names a clip, else clip 0.
-int find_any(const motion::Character& character, std::initializer_list<std::string_view> words) {
+int find_any(const model::Character& character, std::initializer_list<std::string_view> words) {
     for (std::string_view word : words)
         if (const auto clip = find(character, word)) return *clip;
     return 0;
@@ -53,7 +53,7 @@ std::uint8_t baked(Casting& casting, int clip) {
 
 }  // namespace
 
-Casting cast(const motion::Character& character) {
+Casting cast(const model::Character& character) {
     Casting casting;
     CastMember& member = casting.member;
     member.name = character.name;

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "motion/character.h"
+#include "model/character.h"
 #include "scene/crowd.h"
 
 namespace scene {
@@ -17,6 +17,6 @@ struct Casting {
 // Clips are found by name: exactly, then as the shortest name that contains the word, in any case ("Robot_Walking" for
 // walk). A character with a clip called just "sit" is the built-in person's like and takes seats; any other walks on
 // the spot in the stands, and some cheer, wave or clap if they can. Where no name fits, the first clip plays.
-Casting cast(const motion::Character& character);
+Casting cast(const model::Character& character);
 
 }  // namespace scene

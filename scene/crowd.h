@@ -31,7 +31,7 @@ struct CastMember {
     float gait_speed[role_count] = {};  // [m/s] at person height 1.75 m, of walkers and runners
 };
 
-// Colours of one person, sRGB, in the order of motion::Tint's skin, hair, shirt, trousers.
+// Colours of one person, sRGB, in the order of model::Tint's skin, hair, shirt, trousers.
 struct Palette {
     glm::u8vec4 skin, hair, shirt, trousers;
 };

@@ -52,20 +52,20 @@ glm::dvec3 rest_arm_outward() {
 
 namespace {
 
-motion::Skeleton build_skeleton() {
-    motion::Skeleton skeleton;
+model::Skeleton build_skeleton() {
+    model::Skeleton skeleton;
     for (int joint = 0; joint < joint_count; ++joint) {
         const JointRest& rest = rest_joints[joint];
         const glm::dvec3 parent = rest.parent < 0 ? glm::dvec3(0.0) : rest_joints[rest.parent].position;
 
-        motion::Node node;
+        model::Node node;
         node.name = rest.name;
         node.parent = rest.parent;
         node.rest.translation = glm::vec3(rest.position - parent);
         node.rest_matrix[3] = glm::vec4(node.rest.translation, 1.0f);
         skeleton.nodes.push_back(node);
 
-        motion::PaletteEntry entry;
+        model::PaletteEntry entry;
         entry.node = joint;
         entry.inverse_bind[3] = glm::vec4(-glm::vec3(rest.position), 1.0f);
         skeleton.palette.push_back(entry);
@@ -75,8 +75,8 @@ motion::Skeleton build_skeleton() {
 
 }  // namespace
 
-motion::Character make_person() {
-    motion::Character person;
+model::Character make_person() {
+    model::Character person;
     person.name = "person";
     person.mesh = build_person_mesh();
     person.skeleton = build_skeleton();

@@ -1,7 +1,7 @@
 // The built-in person: a skinned humanoid made by code, the same everywhere.
 #pragma once
 
-#include "motion/character.h"
+#include "model/character.h"
 
 namespace scene {
 
@@ -11,7 +11,7 @@ namespace scene {
 // feet 0.37 m in front of it, which is where "cheer" stands up), and "stand" (4 s), "walk" (1 s), "run" (0.7 s; both in
 // place, one cycle = two steps, speeds below). Tints: skin, hair, shirt, trousers; shoes and eyes have their own
 // colours.
-motion::Character make_person();
+model::Character make_person();
 
 inline constexpr float seat_height = 0.45f;  // [m]
 inline constexpr float walk_speed = 1.4f;    // [m/s] at 1.75 m: feet don't slide

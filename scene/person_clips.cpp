@@ -543,15 +543,15 @@ constexpr Gait run_gait{.speed = run_speed,
 
 // ---- Keys ----
 
-motion::Channel empty_channel(int joint, motion::Path path) {
-    motion::Channel channel;
+model::Channel empty_channel(int joint, model::Path path) {
+    model::Channel channel;
     channel.node = joint;
     channel.path = path;
     return channel;
 }
 
 // `last` are the rotations of the key before, if there is one, and then of this one.
-void append_key(motion::Clip& clip, const Solved& solved, bool first, dquat (&last)[joint_count]) {
+void append_key(model::Clip& clip, const Solved& solved, bool first, dquat (&last)[joint_count]) {
     for (int i = 0; i < 3; ++i) clip.channels[0].values.push_back(static_cast<float>(solved.position[hips][i]));
     for (int joint = 0; joint < joint_count; ++joint) {
         const int parent = rest_joints[joint].parent;
@@ -565,21 +565,20 @@ void append_key(motion::Clip& clip, const Solved& solved, bool first, dquat (&la
 }
 
 // Keys of `figure` over [0, duration] at `rate` [1/s]; the last is the first again, bit by bit.
-motion::Clip sample(const std::string& name, double duration, double rate,
-                    const std::function<Figure(double)>& figure) {
-    motion::Clip clip;
+model::Clip sample(const std::string& name, double duration, double rate, const std::function<Figure(double)>& figure) {
+    model::Clip clip;
     clip.name = name;
     clip.duration = duration;
-    clip.channels.push_back(empty_channel(hips, motion::Path::translation));
+    clip.channels.push_back(empty_channel(hips, model::Path::translation));
     for (int joint = 0; joint < joint_count; ++joint)
-        clip.channels.push_back(empty_channel(joint, motion::Path::rotation));
+        clip.channels.push_back(empty_channel(joint, model::Path::rotation));
 
     const auto steps = static_cast<int>(std::lround(duration * rate));
     dquat last[joint_count];
     for (int step = 0; step <= steps; ++step) {
         const bool closing = step == steps;
         append_key(clip, solve(figure(closing ? 0.0 : step / rate)), step == 0, last);
-        for (motion::Channel& channel : clip.channels)
+        for (model::Channel& channel : clip.channels)
             channel.times.push_back(static_cast<float>(closing ? duration : step / rate));
     }
     return clip;
@@ -587,7 +586,7 @@ motion::Clip sample(const std::string& name, double duration, double rate,
 
 }  // namespace
 
-std::vector<motion::Clip> build_person_clips() {
+std::vector<model::Clip> build_person_clips() {
     constexpr double act_rate = 30.0;   // [1/s] a dozen keys a clap
     constexpr double gait_rate = 60.0;  // [1/s] a running foot turns by 10 degrees in a sixtieth
     const auto gait = [](const Gait& g) { return [&g](double t) { return gait_figure(g, t / g.cycle); }; };

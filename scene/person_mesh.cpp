@@ -12,8 +12,8 @@
 namespace scene {
 namespace {
 
-using motion::Mesh;
-using motion::Tint;
+using model::Mesh;
+using model::Tint;
 
 // One cross-section of a part: a superellipse around the part's axis, and how it follows the skeleton.
 struct Ring {
@@ -425,7 +425,7 @@ Mesh build_person_mesh() {
     drop_unused_vertices(mesh);
     mesh.normals = smooth_normals(mesh);
     mesh.uvs.assign(mesh.vertex_count(), glm::vec2(0.0f));
-    mesh.texture_ids.assign(mesh.vertex_count(), motion::no_texture);
+    mesh.texture_ids.assign(mesh.vertex_count(), model::no_texture);
     return mesh;
 }
 

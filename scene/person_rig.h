@@ -5,8 +5,8 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "motion/clip.h"
-#include "motion/mesh.h"
+#include "model/clip.h"
+#include "model/mesh.h"
 
 namespace scene {
 
@@ -56,7 +56,7 @@ struct Sole {
 inline constexpr double ankle_height = 0.075;  // [m]
 inline constexpr Sole sole{{-0.072, -0.060}, {-0.050, -0.075}, {0.112, -0.075}, {0.188, -0.055}};
 
-motion::Mesh build_person_mesh();
-std::vector<motion::Clip> build_person_clips();
+model::Mesh build_person_mesh();
+std::vector<model::Clip> build_person_clips();
 
 }  // namespace scene

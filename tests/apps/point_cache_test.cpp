@@ -25,7 +25,7 @@ using pointsample::PointModel;
 constexpr const char* key = "0123456789abcdef0123456789abcdef";
 
 PointModel made(std::size_t count = 300) {
-    const motion::Character person = scene::make_person();
+    const model::Character person = scene::make_person();
     pointsample::SampleOptions options;
     options.count = count;
     return pointsample::sample(person.mesh, pointsample::spread_poses(person, {}, 1), options);
@@ -84,7 +84,8 @@ TEST(PointCache, MakesADamagedFileAgain) {
     std::string flipped = bytes;
     flipped[bytes.size() / 2] ^= 1;
     int calls = counted.calls;
-    for (const std::string& damaged : {flipped, bytes.substr(0, bytes.size() / 2), std::string(), std::string(5000, 'x')}) {
+    for (const std::string& damaged :
+         {flipped, bytes.substr(0, bytes.size() / 2), std::string(), std::string(5000, 'x')}) {
         std::ofstream(file, std::ios::binary) << damaged;
         EXPECT_TRUE(same(whole, get(cache, counted)));
         EXPECT_EQ(counted.calls, ++calls) << "made again";
@@ -143,7 +144,7 @@ TEST(PointCache, LivesWhereUsersKeepCaches) {
 
 // Whatever sample() reads is in the key, and nothing else is.
 TEST(ModelKey, ChangesWithEverythingThatIsRead) {
-    const motion::Character person = scene::make_person();
+    const model::Character person = scene::make_person();
     const std::vector<pointsample::PosedMesh> poses = pointsample::spread_poses(person, {}, 1);
     const pointsample::SampleOptions options;
     const std::string usual = pointsample::model_key(person.mesh, poses, options);
@@ -160,7 +161,7 @@ TEST(ModelKey, ChangesWithEverythingThatIsRead) {
     with_options([](auto& o) { o.order = pointsample::Order::even; });
     with_options([](auto& o) { o.visible_only = false; });
     const auto with_mesh = [&](auto change) {
-        motion::Mesh changed = person.mesh;
+        model::Mesh changed = person.mesh;
         change(changed);
         others.push_back(pointsample::model_key(changed, poses, options));
     };

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "pointsample/srgb.h"
+#include "model/srgb.h"
 
 namespace bench {
 namespace {
@@ -16,12 +16,11 @@ constexpr int samples_per_side = 4;  // of a pixel
 constexpr std::uint32_t no_triangle = ~0u;
 
 glm::vec3 linear(const glm::u8vec4& color) {
-    return {pointsample::linear_of_srgb(color.r), pointsample::linear_of_srgb(color.g),
-            pointsample::linear_of_srgb(color.b)};
+    return {model::linear_of_srgb(color.r), model::linear_of_srgb(color.g), model::linear_of_srgb(color.b)};
 }
 
 // The nearest texel's.
-glm::vec3 texture_color(const motion::Texture& texture, const glm::vec2& uv) {
+glm::vec3 texture_color(const model::Texture& texture, const glm::vec2& uv) {
     const auto wrapped = [](float at, int size) {
         return std::min(static_cast<int>((at - std::floor(at)) * static_cast<float>(size)), size - 1);
     };
@@ -85,7 +84,7 @@ glm::vec3 Canvas::lit(const glm::vec3& color, glm::vec3 normal, bool double_side
 }
 
 glm::vec3 Canvas::surface_color(const Subject& subject, std::size_t triangle, const glm::vec3& shares) const {
-    const motion::Mesh& mesh = subject.character.mesh;
+    const model::Mesh& mesh = subject.character.mesh;
     const std::uint32_t* corners = &mesh.indices[3 * triangle];
     const auto mixed = [&](const auto& value_of) {
         return shares.x * value_of(corners[0]) + shares.y * value_of(corners[1]) + shares.z * value_of(corners[2]);
@@ -93,13 +92,13 @@ glm::vec3 Canvas::surface_color(const Subject& subject, std::size_t triangle, co
     glm::vec3 color = mixed([&](std::uint32_t vertex) {
         return linear(mesh.colors[vertex]) * linear(subject.palette[static_cast<std::size_t>(mesh.tints[vertex])]);
     });
-    if (const std::uint8_t texture = mesh.texture_ids[corners[0]]; texture != motion::no_texture)
+    if (const std::uint8_t texture = mesh.texture_ids[corners[0]]; texture != model::no_texture)
         color *= texture_color(mesh.textures[texture], mixed([&](std::uint32_t vertex) { return mesh.uvs[vertex]; }));
     return lit(color, mixed([&](std::uint32_t vertex) { return subject.pose.normals[vertex]; }), mesh.double_sided);
 }
 
 void Canvas::draw_mesh(const Subject& subject, std::optional<glm::vec3> flat) {
-    const motion::Mesh& mesh = subject.character.mesh;
+    const model::Mesh& mesh = subject.character.mesh;
     for (std::size_t triangle = 0; triangle < mesh.triangle_count(); ++triangle) {
         std::array<glm::vec3, 3> at;
         for (std::size_t k = 0; k < 3; ++k) at[k] = to_samples(subject.pose.positions[mesh.indices[3 * triangle + k]]);
@@ -161,8 +160,7 @@ render::Image Canvas::image() const {
                 for (int column = x * samples_per_side; column < (x + 1) * samples_per_side; ++column)
                     sum += colors_[static_cast<std::size_t>(row) * width_ + column];
             sum /= samples_per_side * samples_per_side;
-            for (int channel = 0; channel < 3; ++channel)
-                out.pixels.push_back(pointsample::srgb_of_linear(sum[channel]));
+            for (int channel = 0; channel < 3; ++channel) out.pixels.push_back(model::srgb_of_linear(sum[channel]));
         }
     }
     return out;

@@ -10,7 +10,7 @@
 
 namespace {
 
-bench::Subject subject_of(motion::Mesh mesh) {
+bench::Subject subject_of(model::Mesh mesh) {
     bench::Subject subject;
     subject.pose = {mesh.positions, mesh.normals};
     subject.bounds = motion::bounds_of(mesh.positions);
@@ -24,7 +24,7 @@ std::uint8_t red_at(const render::Image& image, int x, int y) {
 }
 
 TEST(Canvas, ShowsTheWorldUprightAndTheNearSide) {
-    motion::Mesh cube = tests::make_cube();
+    model::Mesh cube = tests::make_cube();
     for (std::size_t i = 0; i < cube.vertex_count(); ++i) {  // black below, and behind
         const bool dark = cube.positions[i].y < 0.5f || cube.normals[i].z < -0.5f;
         cube.colors[i] = dark ? glm::u8vec4(0, 0, 0, 255) : glm::u8vec4(255);
@@ -46,7 +46,7 @@ TEST(Canvas, DiscsAsWideAsTheCoveringRadiusLeaveNoHole) {
     model.positions = bench::random_spots(subject.character.mesh, subject.pose.positions, 300, 1).positions;
     model.normals = model.positions;
     model.colors.resize(300, glm::u8vec4(0, 0, 0, 255));
-    model.tints.resize(300, motion::Tint::none);
+    model.tints.resize(300, model::Tint::none);
     const std::vector<glm::vec3> spots =
         bench::random_spots(subject.character.mesh, subject.pose.positions, 50'000, 2).positions;
     const double between_spots = 0.02;  // they are so far from one another
@@ -59,7 +59,7 @@ TEST(Canvas, DiscsAsWideAsTheCoveringRadiusLeaveNoHole) {
 }
 
 TEST(Canvas, SeesTheOuterOfTwoSpheres) {
-    motion::Mesh nested = tests::make_sphere(1, 3);
+    model::Mesh nested = tests::make_sphere(1, 3);
     const std::size_t outer = nested.triangle_count();
     tests::append(nested, tests::make_sphere(0.97f, 3));  // nearly touches it
     const bench::Subject subject = subject_of(nested);

@@ -12,7 +12,7 @@ struct Triangle {
     glm::dvec3 a, b, c;
 };
 
-std::vector<Triangle> triangles_of(const motion::Mesh& mesh, std::span<const glm::vec3> positions) {
+std::vector<Triangle> triangles_of(const model::Mesh& mesh, std::span<const glm::vec3> positions) {
     std::vector<Triangle> triangles;
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
         triangles.push_back(
@@ -97,7 +97,7 @@ double distance_to_triangle(const glm::dvec3& p, const Triangle& triangle) {
 
 }  // namespace
 
-Spots random_spots(const motion::Mesh& mesh, std::span<const glm::vec3> positions, std::size_t count,
+Spots random_spots(const model::Mesh& mesh, std::span<const glm::vec3> positions, std::size_t count,
                    std::uint64_t seed) {
     const std::vector<Triangle> triangles = triangles_of(mesh, positions);
     std::vector<double> ends;
@@ -131,7 +131,7 @@ Covering covering_of(std::span<const glm::vec3> spots, std::span<const glm::vec3
     return covering;
 }
 
-double mean_distance_to_surface(std::span<const glm::vec3> points, const motion::Mesh& mesh,
+double mean_distance_to_surface(std::span<const glm::vec3> points, const model::Mesh& mesh,
                                 std::span<const glm::vec3> positions) {
     const std::vector<Triangle> triangles = triangles_of(mesh, positions);
     double sum = 0;

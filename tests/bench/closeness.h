@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "motion/mesh.h"
+#include "model/mesh.h"
 
 namespace bench {
 
@@ -19,7 +19,7 @@ struct Spots {
 };
 
 // `count` independent points of the posed mesh, area-uniform. At least one triangle must have an area.
-Spots random_spots(const motion::Mesh& mesh, std::span<const glm::vec3> positions, std::size_t count,
+Spots random_spots(const model::Mesh& mesh, std::span<const glm::vec3> positions, std::size_t count,
                    std::uint64_t seed);
 
 // Distances of spots of a surface to the nearest of some points [units].
@@ -31,7 +31,7 @@ struct Covering {
 Covering covering_of(std::span<const glm::vec3> spots, std::span<const glm::vec3> points);
 
 // Mean distance of points to the nearest spot of any triangle [units]. Time is points * triangles.
-double mean_distance_to_surface(std::span<const glm::vec3> points, const motion::Mesh& mesh,
+double mean_distance_to_surface(std::span<const glm::vec3> points, const model::Mesh& mesh,
                                 std::span<const glm::vec3> positions);
 
 }  // namespace bench

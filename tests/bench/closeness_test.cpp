@@ -11,7 +11,7 @@
 namespace {
 
 TEST(Closeness, TheGridFindsTheNearestPoint) {
-    const motion::Mesh sphere = tests::make_sphere(2, 3);
+    const model::Mesh sphere = tests::make_sphere(2, 3);
     const std::vector<glm::vec3> spots = bench::random_spots(sphere, sphere.positions, 2000, 1).positions;
     for (const std::size_t count : {1u, 2u, 17u, 500u}) {
         const std::vector<glm::vec3> points = bench::random_spots(sphere, sphere.positions, count, 2).positions;
@@ -30,7 +30,7 @@ TEST(Closeness, TheGridFindsTheNearestPoint) {
 }
 
 TEST(Closeness, DistancesToACubeAreThoseToItsFacesEdgesAndCorners) {
-    const motion::Mesh cube = tests::make_cube();
+    const model::Mesh cube = tests::make_cube();
     const auto distance = [&](const glm::vec3& point) {
         return bench::mean_distance_to_surface({&point, 1}, cube, cube.positions);
     };
@@ -41,7 +41,7 @@ TEST(Closeness, DistancesToACubeAreThoseToItsFacesEdgesAndCorners) {
 }
 
 TEST(Closeness, RandomPointsAreOnTheSurfaceAndAreaUniform) {
-    const motion::Mesh cube = tests::make_cube();
+    const model::Mesh cube = tests::make_cube();
     const std::vector<glm::vec3> spots = bench::random_spots(cube, cube.positions, 6000, 3).positions;
     EXPECT_NEAR(bench::mean_distance_to_surface(spots, cube, cube.positions), 0, 1e-7);
     const auto top = std::count_if(spots.begin(), spots.end(), [](const glm::vec3& spot) { return spot.y > 0.9999f; });

@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "model/io/gltf.h"
 #include "motion/pose.h"
-#include "pointsample/gltf.h"
 #include "pointsample/sample.h"
 #include "pointsample/visibility.h"
 #include "tests/pointsample/evaluate.h"
@@ -25,12 +25,12 @@ constexpr const char* usage =
     "SURFACE: sphere, plane, huge, plate, bumpy, scan, or a glTF file, which is taken at rest\n"
     "all|visible: whether hidden points count\n";
 
-const std::map<std::string, std::function<motion::Mesh()>, std::less<>> surfaces{
+const std::map<std::string, std::function<model::Mesh()>, std::less<>> surfaces{
     {"sphere", tests::make_ball},          {"plane", tests::make_plane}, {"huge", tests::make_huge_among_tiny},
     {"plate", tests::make_cube_and_plate}, {"bumpy", tests::make_bumpy}, {"scan", tests::make_scan}};
 
-motion::Mesh at_rest(const std::string& file) {
-    motion::Character character = pointsample::load_gltf(file);
+model::Mesh at_rest(const std::string& file) {
+    model::Character character = model::load_gltf(file);
     motion::Pose pose;
     motion::evaluate_rest(character, pose);
     std::vector<glm::vec3> positions, normals;
@@ -43,7 +43,7 @@ motion::Mesh at_rest(const std::string& file) {
 // Dense samples of the part of the surface that counts.
 class Ground {
 public:
-    Ground(const motion::Mesh& mesh, bool visible_only) : mesh_(mesh), area_(tests::area_of(mesh)) {
+    Ground(const model::Mesh& mesh, bool visible_only) : mesh_(mesh), area_(tests::area_of(mesh)) {
         if (!visible_only) return;
         visibility_ = std::make_unique<pointsample::Visibility>(mesh.positions, mesh.indices);
         constexpr std::size_t many = 1000000;
@@ -69,7 +69,7 @@ public:
     }
 
 private:
-    const motion::Mesh& mesh_;
+    const model::Mesh& mesh_;
     double area_;
     std::unique_ptr<pointsample::Visibility> visibility_;
 };
@@ -101,7 +101,7 @@ void print_row(const std::string& name, const Ground& ground, const tests::Sampl
 
 void print_surface(const std::string& name, const pointsample::SampleOptions& options) {
     const auto known = surfaces.find(name);
-    const motion::Mesh mesh = known != surfaces.end() ? known->second() : at_rest(name);
+    const model::Mesh mesh = known != surfaces.end() ? known->second() : at_rest(name);
     const pointsample::PosedMesh rest{mesh.positions, mesh.normals};
     const pointsample::PointModel model = pointsample::sample(mesh, {&rest, 1}, options);
     const tests::Sample sample = tests::sample_of(model, mesh);

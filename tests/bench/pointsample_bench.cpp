@@ -15,8 +15,8 @@ namespace {
 
 using pointsample::Order;
 
-const motion::Mesh& scan() {
-    static const motion::Mesh mesh = tests::make_scan();
+const model::Mesh& scan() {
+    static const model::Mesh mesh = tests::make_scan();
     return mesh;
 }
 
@@ -98,7 +98,7 @@ void CandidatesAlone(benchmark::State& state) {
 BENCHMARK(CandidatesAlone)->Arg(1600000)->Unit(benchmark::kMillisecond);
 
 // Without the build of the ray-tracing scene. Nothing of the scan is hidden; of nested balls a fifth is.
-void look(benchmark::State& state, const motion::Mesh& mesh) {
+void look(benchmark::State& state, const model::Mesh& mesh) {
     const tbb::global_control two_threads(tbb::global_control::max_allowed_parallelism, 2);
     const pointsample::PosedMesh pose{mesh.positions, mesh.normals};
     const pointsample::Surface surface(mesh.indices, {&pose, 1});
@@ -116,7 +116,7 @@ void HiddenTestOfScan(benchmark::State& state) {
     look(state, scan());
 }
 void HiddenTestOfNestedBalls(benchmark::State& state) {
-    motion::Mesh nested = tests::make_ball(), inner = tests::make_ball();
+    model::Mesh nested = tests::make_ball(), inner = tests::make_ball();
     const std::uint32_t first = static_cast<std::uint32_t>(nested.positions.size());
     for (const glm::vec3& p : inner.positions) nested.positions.push_back(0.5f * p);
     nested.normals.insert(nested.normals.end(), inner.normals.begin(), inner.normals.end());

@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "pointsample/mesh_file.h"
+#include "model/io/mesh_file.h"
 #include "scene/person.h"
 
 namespace bench {
 namespace {
 
-const motion::Clip& find_clip(const motion::Character& character, const std::string& name) {
+const model::Clip& find_clip(const model::Character& character, const std::string& name) {
     const auto found = std::find_if(character.clips.begin(), character.clips.end(),
-                                    [&](const motion::Clip& clip) { return clip.name == name; });
+                                    [&](const model::Clip& clip) { return clip.name == name; });
     if (found == character.clips.end())
         throw std::runtime_error(character.name + ": found no clip '" + name + "', expected the name of one");
     return *found;
@@ -25,7 +25,7 @@ Subject load_subject(std::span<const std::string> arguments) {
                                  " arguments, expected FILE CLIP SECONDS");
     Subject subject;
     const bool built_in = arguments.empty();
-    subject.character = built_in ? scene::make_person() : pointsample::load_mesh(arguments[0]);
+    subject.character = built_in ? scene::make_person() : model::load_mesh(arguments[0]);
     motion::Pose pose;
     if (built_in) {
         constexpr double mid_step = 0.3;  // [s]

@@ -5,17 +5,17 @@
 #include <span>
 #include <string>
 
-#include "motion/character.h"
+#include "model/character.h"
 #include "motion/pose.h"
 #include "pointsample/sample.h"
 
 namespace bench {
 
 struct Subject {
-    motion::Character character;
+    model::Character character;
     pointsample::PosedMesh pose;
-    motion::Bounds bounds;                                  // of the pose: [character's units]
-    std::array<glm::u8vec4, motion::tint_count> palette{};  // by Tint; sRGB-encoded
+    motion::Bounds bounds;                                 // of the pose: [character's units]
+    std::array<glm::u8vec4, model::tint_count> palette{};  // by Tint; sRGB-encoded
 
     float height() const { return bounds.size().y; }
 };

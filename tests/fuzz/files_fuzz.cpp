@@ -13,7 +13,7 @@
 #include <string>
 #include <string_view>
 
-#include "pointsample/mesh_file.h"
+#include "model/io/mesh_file.h"
 #include "pointsample/points_file.h"
 
 namespace {
@@ -30,7 +30,7 @@ void use(const std::filesystem::path& path) {
         for (const glm::vec3& position : model.positions) require(std::isfinite(position.x + position.y + position.z));
         return;
     }
-    const motion::Mesh mesh = pointsample::load_mesh(path).mesh;
+    const model::Mesh mesh = model::load_mesh(path).mesh;
     const std::size_t count = mesh.vertex_count();
     require(!mesh.indices.empty() && mesh.normals.size() == count && mesh.uvs.size() == count &&
             mesh.colors.size() == count && mesh.tints.size() == count && mesh.texture_ids.size() == count &&

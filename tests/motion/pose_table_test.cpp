@@ -24,7 +24,7 @@ struct Surface {
     std::vector<glm::vec3> positions, normals;
 };
 
-Surface skinned(const motion::Character& character, int clip, double time) {
+Surface skinned(const model::Character& character, int clip, double time) {
     motion::Pose pose;
     Surface surface;
     motion::evaluate(character, character.clips[static_cast<std::size_t>(clip)], time, pose);
@@ -37,7 +37,7 @@ glm::vec3 step_of(const motion::PoseTable& table) {
     return table.box.size() * (0.5f / 65535.0f + 4e-7f);
 }
 
-std::vector<motion::SurfacePoint> scatter(const motion::Mesh& mesh, int count) {
+std::vector<motion::SurfacePoint> scatter(const model::Mesh& mesh, int count) {
     tests::Random random(77);
     std::vector<motion::SurfacePoint> points;
     for (int i = 0; i < count; ++i) {
@@ -48,14 +48,14 @@ std::vector<motion::SurfacePoint> scatter(const motion::Mesh& mesh, int count) {
     return points;
 }
 
-motion::Character two_clips() {
-    motion::Character character = tests::make_tentacle(11, 5, 0.5f);
+model::Character two_clips() {
+    model::Character character = tests::make_tentacle(11, 5, 0.5f);
     character.clips.push_back(tests::make_tentacle(12, 5, 0.8f).clips[0]);
     return character;
 }
 
 TEST(PoseTable, HoldsWhatSkinningGives) {
-    const motion::Character character = two_clips();
+    const model::Character character = two_clips();
     const std::vector<int> clips{1, 0};
     const motion::PoseTable table = motion::bake_poses(character, clips, {}, plenty);
     ASSERT_EQ(table.clips.size(), 2u);
@@ -77,7 +77,7 @@ TEST(PoseTable, HoldsWhatSkinningGives) {
 }
 
 TEST(PoseTable, PointsStayOnTheirTriangles) {
-    const motion::Character character = two_clips();
+    const model::Character character = two_clips();
     const std::vector<motion::SurfacePoint> points = scatter(character.mesh, 500);
     const motion::PoseTable table = motion::bake_poses(character, std::vector<int>{0}, points, plenty);
     const float reach = 2.0f * glm::length(step_of(table));
@@ -101,7 +101,7 @@ TEST(PoseTable, PointsStayOnTheirTriangles) {
 }
 
 TEST(PoseTable, BoxesHoldEveryPose) {
-    const motion::Character character = two_clips();
+    const model::Character character = two_clips();
     const motion::PoseTable table = motion::bake_poses(character, std::vector<int>{0, 1}, {}, plenty);
     for (int clip = 0; clip < 2; ++clip) {
         glm::vec3 low(1e9f), high(-1e9f);
@@ -121,7 +121,7 @@ TEST(PoseTable, BoxesHoldEveryPose) {
 }
 
 TEST(PoseTable, TakesTheDensestRateThatFits) {
-    const motion::Character character = two_clips();
+    const model::Character character = two_clips();
     const std::vector<int> clips{0, 1};
     const std::size_t bytes =
         motion::bake_poses(character, clips, {}, plenty).vertices.size() * sizeof(motion::PosedVertex);
@@ -137,7 +137,7 @@ TEST(PoseTable, TakesTheDensestRateThatFits) {
 }
 
 TEST(PoseTable, RefusesABudgetBelowOnePoseAClip) {
-    const motion::Character character = two_clips();
+    const model::Character character = two_clips();
     const std::size_t one_pose = character.mesh.vertex_count() * sizeof(motion::PosedVertex);
     EXPECT_NO_THROW(motion::bake_poses(character, std::vector<int>{0, 1}, {}, 2 * one_pose));
     EXPECT_THROW(motion::bake_poses(character, std::vector<int>{0, 1}, {}, 2 * one_pose - 1), std::runtime_error);
@@ -145,16 +145,16 @@ TEST(PoseTable, RefusesABudgetBelowOnePoseAClip) {
 }
 
 TEST(PoseTable, RefusesSurfacesWithoutArea) {
-    motion::Character flat = two_clips();
+    model::Character flat = two_clips();
     for (glm::vec3& position : flat.mesh.positions) position = glm::vec3(1, 2, 3);
     for (auto& joints : flat.mesh.joints) joints = {};
     for (auto& weights : flat.mesh.weights) weights = {1, 0, 0, 0};
     EXPECT_THROW(motion::bake_poses(flat, std::vector<int>{0}, {}, plenty), std::runtime_error);
-    EXPECT_THROW(motion::bake_poses(motion::Character{}, {}, {}, plenty), std::runtime_error);
+    EXPECT_THROW(motion::bake_poses(model::Character{}, {}, {}, plenty), std::runtime_error);
 }
 
 TEST(PoseTable, WithoutClipsHoldsTheRestPose) {
-    const motion::Character character = two_clips();
+    const model::Character character = two_clips();
     const motion::PoseTable table = motion::bake_poses(character, {}, {}, plenty);
     ASSERT_EQ(table.pose_count, 1);
     ASSERT_EQ(table.clips.size(), 1u);
@@ -169,7 +169,7 @@ TEST(PoseTable, WithoutClipsHoldsTheRestPose) {
 }
 
 TEST(PoseTable, LoopsWithoutRepeatingAPose) {
-    const motion::Character character = two_clips();
+    const model::Character character = two_clips();
     const motion::PoseTable table = motion::bake_poses(character, std::vector<int>{0, 1}, {}, plenty);
     EXPECT_EQ(table.pose_at(0, 0), 0);
     EXPECT_EQ(table.pose_at(0, 29), 29);
@@ -186,7 +186,7 @@ TEST(PoseTable, LoopsWithoutRepeatingAPose) {
 }
 
 TEST(PoseTable, AbsurdDurationsFitTheBudgetToo) {
-    motion::Character character = two_clips();
+    model::Character character = two_clips();
     for (const double duration : {-1.0, 0.0, 1e-9, 1e30, std::nan(""), std::numeric_limits<double>::infinity()}) {
         character.clips[0].duration = duration;
         const motion::PoseTable table = motion::bake_poses(character, std::vector<int>{0}, {}, 1'000'000);
@@ -197,7 +197,7 @@ TEST(PoseTable, AbsurdDurationsFitTheBudgetToo) {
 }
 
 TEST(PoseTable, IsTheSameBitsOnAnyThreadCount) {
-    const motion::Character character = two_clips();
+    const model::Character character = two_clips();
     const std::vector<motion::SurfacePoint> points = scatter(character.mesh, 100);
     const auto bake = [&](std::size_t threads) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
@@ -224,7 +224,7 @@ TEST(PoseTable, ProgressOnlyRisesAndEndsAtOne) {
 }
 
 TEST(PoseTable, AreaIsTheLargestOverThePoses) {
-    const motion::Character character = two_clips();
+    const model::Character character = two_clips();
     const motion::PoseTable table = motion::bake_poses(character, std::vector<int>{0}, {}, plenty);
     double largest = 0;
     for (int i = 0; i < table.pose_count; ++i) {
@@ -240,8 +240,8 @@ TEST(PoseTable, AreaIsTheLargestOverThePoses) {
 }
 
 // Three clips of different lengths, asked for out of order.
-motion::Character three_clips() {
-    motion::Character character = tests::make_rig(5, 3);
+model::Character three_clips() {
+    model::Character character = tests::make_rig(5, 3);
     const double lengths[] = {0.61, 1.0 / 60, 1.3};  // [s] neither is whole at every rate
     for (std::size_t i = 0; i < 3; ++i) character.clips[i].duration = lengths[i];
     return character;
@@ -257,7 +257,7 @@ std::int64_t wrapped(std::int64_t tick, std::int64_t period) {
 }
 
 TEST(PoseTable, EveryTickFindsThePoseOfItsTimeAtAnySpacing) {
-    const motion::Character character = three_clips();
+    const model::Character character = three_clips();
     const std::vector<motion::SurfacePoint> points = scatter(character.mesh, 40);
     const std::size_t bytes_per_pose = (character.mesh.vertex_count() + points.size()) * sizeof(motion::PosedVertex);
     for (const std::size_t most : {1000u, 70u, 31u, 9u, 3u}) {
@@ -293,7 +293,7 @@ TEST(PoseTable, EveryTickFindsThePoseOfItsTimeAtAnySpacing) {
 }
 
 TEST(PoseTable, AClipsPeriodIsItsDurationToHalfAPose) {
-    const motion::Character character = three_clips();
+    const model::Character character = three_clips();
     const std::size_t bytes_per_pose = character.mesh.vertex_count() * sizeof(motion::PosedVertex);
     for (const std::size_t most : {1000u, 70u, 31u, 9u}) {
         const motion::PoseTable table = motion::bake_poses(character, out_of_order, {}, most * bytes_per_pose);
@@ -316,7 +316,7 @@ TEST(PoseTable, AClipsPeriodIsItsDurationToHalfAPose) {
 }
 
 TEST(PoseTable, PointsCountAgainstTheBudgetToo) {
-    const motion::Character character = two_clips();
+    const model::Character character = two_clips();
     const std::vector<motion::SurfacePoint> points = scatter(character.mesh, 777);
     for (const std::size_t budget : {std::size_t{40'000}, std::size_t{200'000}}) {
         const motion::PoseTable table = motion::bake_poses(character, std::vector<int>{0, 1}, points, budget);
@@ -325,7 +325,7 @@ TEST(PoseTable, PointsCountAgainstTheBudgetToo) {
 }
 
 TEST(PoseTable, HeightAndFloorAreThoseOfTheFirstPoseAlone) {
-    motion::Character character = two_clips();
+    model::Character character = two_clips();
     for (const int clip : {0, 1}) {
         const motion::PoseTable table = motion::bake_poses(character, std::vector<int>{clip, 1 - clip}, {}, plenty);
         const motion::Bounds first = motion::bounds_of(skinned(character, clip, 0).positions);
@@ -338,7 +338,7 @@ TEST(PoseTable, HeightAndFloorAreThoseOfTheFirstPoseAlone) {
 
 TEST(PoseTable, OfAFlatPoseTheLongestSideStandsForTheHeight) {
     for (const glm::vec3 sides : {glm::vec3(3, 0, 1), glm::vec3(1, 0, 3)}) {
-        motion::Character sheet;
+        model::Character sheet;
         sheet.skeleton.nodes.resize(1);
         sheet.skeleton.palette.push_back({0, glm::mat4(1.0f)});
         sheet.mesh.positions = {{0, 2, 0}, {sides.x, 2, 0}, {0, 2, sides.z}};
@@ -355,7 +355,7 @@ TEST(PoseTable, OfAFlatPoseTheLongestSideStandsForTheHeight) {
 }
 
 TEST(PoseTable, TheBoxesCornersAreExact) {
-    const motion::Character character = two_clips();
+    const model::Character character = two_clips();
     const motion::PoseTable table = motion::bake_poses(character, std::vector<int>{0, 1}, {}, plenty);
     glm::vec3 low(1e9f), high(-1e9f);
     for (const motion::PosedVertex& vertex : table.vertices) {
@@ -368,7 +368,7 @@ TEST(PoseTable, TheBoxesCornersAreExact) {
 }
 
 TEST(PoseTable, AreaIsTheLargestOfAnyClip) {
-    motion::Character character = two_clips();
+    model::Character character = two_clips();
     const float first = motion::bake_poses(character, std::vector<int>{0}, {}, plenty).area,
                 second = motion::bake_poses(character, std::vector<int>{1}, {}, plenty).area;
     EXPECT_NE(first, second);

@@ -9,13 +9,13 @@
 
 namespace {
 
-using motion::Channel;
-using motion::Interpolation;
-using motion::Path;
+using model::Channel;
+using model::Interpolation;
+using model::Path;
 
 // One node with one channel; what its local matrix becomes.
-glm::mat4 world_of(const Channel& channel, double time, const motion::Node& node = {}) {
-    motion::Character character;
+glm::mat4 world_of(const Channel& channel, double time, const model::Node& node = {}) {
+    model::Character character;
     character.skeleton.nodes = {node};
     motion::Pose pose;
     motion::evaluate(character, {"one", 1.0, {channel}}, time, pose);
@@ -112,7 +112,7 @@ TEST(Pose, EqualTimesGiveTheLaterKey) {
 }
 
 TEST(Pose, ChannelsWithoutWholeKeysLeaveTheRest) {
-    motion::Node node;
+    model::Node node;
     node.rest.translation = {7, 8, 9};
     node.rest_matrix = tests::matrix_of(node.rest);
     for (const Channel& channel : {Channel{0, Path::translation, Interpolation::linear, {}, {}},
@@ -122,11 +122,11 @@ TEST(Pose, ChannelsWithoutWholeKeysLeaveTheRest) {
 }
 
 TEST(Pose, ShearedNodesStayShearedUnlessDriven) {
-    motion::Node node;
+    model::Node node;
     node.rest_matrix[1].x = 0.5f;
     const Channel drives_nothing{0, Path::morph_weights, Interpolation::linear, {0}, {1}};
     EXPECT_EQ(world_of(drives_nothing, 0, node)[1].x, 0.5f);
-    motion::Character character;
+    model::Character character;
     character.skeleton.nodes = {node};
     motion::Pose pose;
     motion::evaluate_rest(character, pose);
@@ -134,7 +134,7 @@ TEST(Pose, ShearedNodesStayShearedUnlessDriven) {
 }
 
 TEST(Pose, ADeepChainNeedsNoStack) {
-    motion::Character character;
+    model::Character character;
     character.skeleton.nodes.resize(200'000);
     for (std::size_t i = 0; i < character.skeleton.nodes.size(); ++i) {
         character.skeleton.nodes[i].parent = static_cast<std::int32_t>(i) - 1;

@@ -7,13 +7,13 @@
 #include <cstddef>
 #include <vector>
 
-#include "motion/character.h"
+#include "model/character.h"
 
 namespace tests::reference {
 
-using motion::Channel;
-using motion::Interpolation;
-using motion::Path;
+using model::Channel;
+using model::Interpolation;
+using model::Path;
 
 struct Turn {
     double x = 0, y = 0, z = 0, w = 1;
@@ -120,16 +120,16 @@ inline glm::dvec3 vec3_of(const std::vector<double>& v) {
 // A character at one time of a clip, or at rest without one.
 class Figure {
 public:
-    explicit Figure(const motion::Character& character) : character_(character) {
-        for (const motion::Node& node : character.skeleton.nodes) {
+    explicit Figure(const model::Character& character) : character_(character) {
+        for (const model::Node& node : character.skeleton.nodes) {
             const glm::quat& q = node.rest.rotation;
             nodes_.push_back({false, node.rest.translation, {q.x, q.y, q.z, q.w}, node.rest.scale});
         }
-        for (const motion::MorphTarget& morph : character.mesh.morphs)
+        for (const model::MorphTarget& morph : character.mesh.morphs)
             morph_weights.push_back(static_cast<double>(morph.rest_weight));
     }
 
-    Figure(const motion::Character& character, const motion::Clip& clip, double time) : Figure(character) {
+    Figure(const model::Character& character, const model::Clip& clip, double time) : Figure(character) {
         for (const Channel& channel : clip.channels) drive(channel, time);
     }
 
@@ -187,7 +187,7 @@ private:
                               slots = channel.values.size() / channel.times.size() / parts;
             const std::vector<double> values = vector_at(channel, time, slots);
             for (std::size_t i = 0; i < morph_weights.size(); ++i) {
-                const motion::MorphTarget& morph = character_.mesh.morphs[i];
+                const model::MorphTarget& morph = character_.mesh.morphs[i];
                 if (morph.node == channel.node && static_cast<std::size_t>(morph.slot) < slots)
                     morph_weights[i] = values[static_cast<std::size_t>(morph.slot)];
             }
@@ -205,34 +205,34 @@ private:
     }
 
     glm::dvec3 with_offsets(glm::dvec3 v, std::size_t vertex,
-                            std::vector<glm::vec3> motion::MorphTarget::*offsets) const {
+                            std::vector<glm::vec3> model::MorphTarget::*offsets) const {
         for (std::size_t i = 0; i < morph_weights.size(); ++i) {
-            const motion::MorphTarget& morph = character_.mesh.morphs[i];
+            const model::MorphTarget& morph = character_.mesh.morphs[i];
             if (vertex < morph.first_vertex || vertex - morph.first_vertex >= (morph.*offsets).size()) continue;
             v += morph_weights[i] * glm::dvec3((morph.*offsets)[vertex - morph.first_vertex]);
         }
         return v;
     }
     glm::dvec3 morphed(std::size_t vertex) const {
-        return with_offsets(character_.mesh.positions[vertex], vertex, &motion::MorphTarget::position_offsets);
+        return with_offsets(character_.mesh.positions[vertex], vertex, &model::MorphTarget::position_offsets);
     }
     glm::dvec3 morphed_normal(std::size_t vertex) const {
         return glm::normalize(
-            with_offsets(character_.mesh.normals[vertex], vertex, &motion::MorphTarget::normal_offsets));
+            with_offsets(character_.mesh.normals[vertex], vertex, &model::MorphTarget::normal_offsets));
     }
 
     // Where its joints take a place beside the vertex.
     glm::dvec3 skinned(std::size_t vertex, const glm::dvec3& p) const {
         glm::dvec3 sum(0);
         for (int i = 0; i < 4; ++i) {
-            const motion::PaletteEntry& entry = character_.skeleton.palette[character_.mesh.joints[vertex][i]];
+            const model::PaletteEntry& entry = character_.skeleton.palette[character_.mesh.joints[vertex][i]];
             sum += place(entry.node, applied(entry.inverse_bind, p)) *
                    static_cast<double>(character_.mesh.weights[vertex][i]);
         }
         return sum;
     }
 
-    const motion::Character& character_;
+    const model::Character& character_;
     std::vector<Local> nodes_;
 };
 

@@ -13,8 +13,8 @@ class RigMaker {
 public:
     explicit RigMaker(std::uint64_t seed) : random_(seed) {}
 
-    motion::Character make(int clips = 1) {
-        motion::Character character;
+    model::Character make(int clips = 1) {
+        model::Character character;
         character.name = "rig";
         for (int i = 0; i < nodes; ++i) character.skeleton.nodes.push_back(node(i));
         // Several of one node, none of others, in no order.
@@ -43,10 +43,10 @@ private:
             if (chance(1.0f / 6)) scale[axis] = -scale[axis];
         return scale;
     }
-    motion::Transform transform() { return {random_.vector(-0.5f, 0.5f), random_.rotation(), scale()}; }
+    model::Transform transform() { return {random_.vector(-0.5f, 0.5f), random_.rotation(), scale()}; }
 
-    motion::Node node(int i) {
-        motion::Node node;
+    model::Node node(int i) {
+        model::Node node;
         node.parent = index(i + 1) - 1;
         node.rest = transform();
         node.rest_matrix = matrix_of(node.rest);
@@ -54,7 +54,7 @@ private:
         return node;
     }
 
-    void add_mesh(motion::Mesh& mesh) {
+    void add_mesh(model::Mesh& mesh) {
         for (int i = 0; i < vertices; ++i) {
             mesh.positions.push_back(random_.vector(-1, 1));
             mesh.normals.push_back(random_.rotation() * glm::vec3(0, 0, 1));
@@ -71,15 +71,15 @@ private:
         mesh.uvs.resize(vertices);
         mesh.colors.resize(vertices, glm::u8vec4(255));
         mesh.tints.resize(vertices);
-        mesh.texture_ids.resize(vertices, motion::no_texture);
+        mesh.texture_ids.resize(vertices, model::no_texture);
     }
 
     // Of two nodes with the same slots, over runs that overlap; half of them with normals.
-    void add_morphs(motion::Mesh& mesh) {
+    void add_morphs(model::Mesh& mesh) {
         for (const std::int32_t node : morphed_nodes) {
             for (std::int32_t slot = 0; slot < 3; ++slot) {
-                motion::MorphTarget morph{node, slot, random_(-0.5f, 1.0f), static_cast<std::uint32_t>(index(30)),
-                                          {},   {}};
+                model::MorphTarget morph{node, slot, random_(-0.5f, 1.0f), static_cast<std::uint32_t>(index(30)),
+                                         {},   {}};
                 for (int i = 0; i < 25; ++i) morph.position_offsets.push_back(random_.vector(-0.4f, 0.4f));
                 for (int i = 0; i < 25 && slot != 1; ++i) morph.normal_offsets.push_back(random_.vector(-0.4f, 0.4f));
                 mesh.morphs.push_back(morph);
@@ -96,19 +96,19 @@ private:
     }
 
     // One value and, of a spline, its two tangents, which differ.
-    void add_key(motion::Channel& channel, const glm::quat& middle, std::size_t slots) {
+    void add_key(model::Channel& channel, const glm::quat& middle, std::size_t slots) {
         const auto some = [&](float from, float to) {
             for (std::size_t i = 0; i < slots; ++i) channel.values.push_back(random_(from, to));
         };
-        const bool cubic = channel.interpolation == motion::Interpolation::cubic_spline;
+        const bool cubic = channel.interpolation == model::Interpolation::cubic_spline;
         if (cubic) some(-1, 1);
-        if (channel.path == motion::Path::rotation) {
+        if (channel.path == model::Path::rotation) {
             // A spline runs through the quaternions' own space: its keys are near to each other, away from zero.
             glm::quat q = cubic ? middle : random_.rotation();
             if (cubic) q = q + 0.3f * random_.rotation();
             q = q * random_(0.7f, 1.5f);
             channel.values.insert(channel.values.end(), {q.x, q.y, q.z, q.w});
-        } else if (channel.path == motion::Path::scale) {
+        } else if (channel.path == model::Path::scale) {
             const glm::vec3 s = scale();
             channel.values.insert(channel.values.end(), {s.x, s.y, s.z});
         } else {
@@ -117,25 +117,25 @@ private:
         if (cubic) some(-1, 1);
     }
 
-    motion::Channel channel(std::int32_t node, motion::Path path, std::size_t slots) {
-        motion::Channel channel{node, path, static_cast<motion::Interpolation>(index(3)), times(), {}};
+    model::Channel channel(std::int32_t node, model::Path path, std::size_t slots) {
+        model::Channel channel{node, path, static_cast<model::Interpolation>(index(3)), times(), {}};
         const glm::quat middle = random_.rotation();
         for (std::size_t i = 0; i < channel.times.size(); ++i) add_key(channel, middle, slots);
         return channel;
     }
 
     // Some paths of most nodes; the morphs' weights, of one node too few for its slots.
-    motion::Clip clip(const motion::Character& character) {
-        motion::Clip clip{"clip", 0, {}};
+    model::Clip clip(const model::Character& character) {
+        model::Clip clip{"clip", 0, {}};
         for (std::int32_t node = 0; node < nodes; ++node)
-            for (const motion::Path path : {motion::Path::translation, motion::Path::rotation, motion::Path::scale})
-                if (chance(0.5f)) clip.channels.push_back(channel(node, path, path == motion::Path::rotation ? 4 : 3));
+            for (const model::Path path : {model::Path::translation, model::Path::rotation, model::Path::scale})
+                if (chance(0.5f)) clip.channels.push_back(channel(node, path, path == model::Path::rotation ? 4 : 3));
         for (std::size_t i = 0; i < std::size(morphed_nodes); ++i)
-            clip.channels.push_back(channel(morphed_nodes[i], motion::Path::morph_weights, 3 - i));
+            clip.channels.push_back(channel(morphed_nodes[i], model::Path::morph_weights, 3 - i));
         for (std::size_t i = character.skeleton.nodes.size(); i > 0; --i)  // in no order
             std::swap(clip.channels[static_cast<std::size_t>(index(static_cast<int>(clip.channels.size())))],
                       clip.channels.front());
-        for (const motion::Channel& channel : clip.channels)
+        for (const model::Channel& channel : clip.channels)
             clip.duration = std::max(clip.duration, static_cast<double>(channel.times.back()));
         return clip;
     }
@@ -143,7 +143,7 @@ private:
     Random random_;
 };
 
-inline motion::Character make_rig(std::uint64_t seed, int clips = 1) {
+inline model::Character make_rig(std::uint64_t seed, int clips = 1) {
     return RigMaker(seed).make(clips);
 }
 

@@ -25,14 +25,14 @@ struct Surface {
     std::vector<glm::vec3> positions, normals;
 };
 
-void skin(const motion::Character& character, Surface& surface) {
+void skin(const model::Character& character, Surface& surface) {
     motion::skin(character.mesh, surface.pose, surface.positions, surface.normals);
 }
 
 // Before the first key, on every key, between any two, and after the last.
-std::set<double> telling_times(const motion::Clip& clip) {
+std::set<double> telling_times(const model::Clip& clip) {
     std::set<double> times{-1.0, 0.0, clip.duration + 1};
-    for (const motion::Channel& channel : clip.channels) {
+    for (const model::Channel& channel : clip.channels) {
         for (std::size_t i = 0; i < channel.times.size(); ++i) {
             const double key = static_cast<double>(channel.times[i]);
             times.insert(key);
@@ -42,7 +42,7 @@ std::set<double> telling_times(const motion::Clip& clip) {
     return times;
 }
 
-void expect_like(const motion::Character& character, const Figure& expected, const Surface& got, int& normals) {
+void expect_like(const model::Character& character, const Figure& expected, const Surface& got, int& normals) {
     ASSERT_EQ(got.positions.size(), character.mesh.vertex_count());
     for (std::size_t i = 0; i < got.positions.size(); ++i) {
         const glm::dvec3 place = expected.position(i);
@@ -58,8 +58,8 @@ void expect_like(const motion::Character& character, const Figure& expected, con
 TEST(Rig, EveryTimeOfAnyClipIsTheReferences) {
     int normals = 0, all = 0;
     for (std::uint64_t seed = 1; seed <= rigs; ++seed) {
-        const motion::Character character = tests::make_rig(seed);
-        const motion::Clip& clip = character.clips[0];
+        const model::Character character = tests::make_rig(seed);
+        const model::Clip& clip = character.clips[0];
         Surface got;
         for (const double time : telling_times(clip)) {
             SCOPED_TRACE(testing::Message() << "seed " << seed << " time " << time);
@@ -77,8 +77,8 @@ TEST(Rig, EveryTimeOfAnyClipIsTheReferences) {
 
 TEST(Rig, EveryNodeIsWhereTheReferenceHasIt) {
     for (std::uint64_t seed = 1; seed <= rigs; ++seed) {
-        const motion::Character character = tests::make_rig(seed);
-        const motion::Clip& clip = character.clips[0];
+        const model::Character character = tests::make_rig(seed);
+        const model::Clip& clip = character.clips[0];
         motion::Pose pose;
         motion::evaluate(character, clip, 0.5 * clip.duration, pose);
         const Figure expected(character, clip, 0.5 * clip.duration);
@@ -94,7 +94,7 @@ TEST(Rig, EveryNodeIsWhereTheReferenceHasIt) {
 TEST(Rig, AtRestItIsTheReferences) {
     int normals = 0;
     for (std::uint64_t seed = 1; seed <= rigs; ++seed) {
-        const motion::Character character = tests::make_rig(seed);
+        const model::Character character = tests::make_rig(seed);
         Surface got;
         motion::evaluate_rest(character, got.pose);
         skin(character, got);
@@ -103,7 +103,7 @@ TEST(Rig, AtRestItIsTheReferences) {
 }
 
 TEST(Rig, APoseForgetsTheOneBefore) {
-    const motion::Character large = tests::make_rig(1), small = tests::make_tentacle(2, 3);
+    const model::Character large = tests::make_rig(1), small = tests::make_tentacle(2, 3);
     Surface fresh, used;
     motion::evaluate(large, large.clips[0], 0.4, used.pose);
     skin(large, used);
@@ -119,12 +119,12 @@ TEST(Rig, APoseForgetsTheOneBefore) {
 }
 
 TEST(Rig, WeightsOfOneNodeLeaveTheOthersAlone) {
-    motion::Character character = tests::make_rig(3);
-    motion::Mesh& mesh = character.mesh;
+    model::Character character = tests::make_rig(3);
+    model::Mesh& mesh = character.mesh;
     motion::Pose rest, posed;
     motion::evaluate_rest(character, rest);
     for (const std::int32_t node : {2, 5}) {
-        const motion::Channel weights{node, motion::Path::morph_weights, motion::Interpolation::step, {0}, {7, 8, 9}};
+        const model::Channel weights{node, model::Path::morph_weights, model::Interpolation::step, {0}, {7, 8, 9}};
         motion::evaluate(character, {"one", 0, {weights}}, 0, posed);
         for (std::size_t i = 0; i < mesh.morphs.size(); ++i) {
             const float driven = weights.values[static_cast<std::size_t>(mesh.morphs[i].slot)];
@@ -140,15 +140,15 @@ TEST(Rig, SmallTurnsAreAsExactAsLargeOnes) {
     for (double angle = 1e-4; angle < 3.1; angle *= 1.3) {
         const glm::quat from = random.rotation();
         const glm::quat to = from * glm::angleAxis(static_cast<float>(angle), random.rotation() * glm::vec3(1, 0, 0));
-        motion::Character character;
+        model::Character character;
         character.skeleton.nodes.resize(1);
-        const motion::Clip clip{"turn",
-                                1,
-                                {{0,
-                                  motion::Path::rotation,
-                                  motion::Interpolation::linear,
-                                  {0, 1},
-                                  {from.x, from.y, from.z, from.w, to.x, to.y, to.z, to.w}}}};
+        const model::Clip clip{"turn",
+                               1,
+                               {{0,
+                                 model::Path::rotation,
+                                 model::Interpolation::linear,
+                                 {0, 1},
+                                 {from.x, from.y, from.z, from.w, to.x, to.y, to.z, to.w}}}};
         for (const double time : {0.1, 0.25, 0.5, 0.9}) {
             motion::Pose pose;
             motion::evaluate(character, clip, time, pose);

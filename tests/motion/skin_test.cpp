@@ -8,8 +8,8 @@
 namespace {
 
 // Directions spread over the sphere, as the vertices of a unit ball on one joint with matrix `world`.
-motion::Character make_ball(const glm::mat4& world) {
-    motion::Character character;
+model::Character make_ball(const glm::mat4& world) {
+    model::Character character;
     character.skeleton.nodes.resize(1);
     character.skeleton.nodes[0].rest_matrix = world;
     character.skeleton.palette.push_back({0, glm::mat4(1.0f)});
@@ -24,7 +24,7 @@ motion::Character make_ball(const glm::mat4& world) {
     return character;
 }
 
-void pose_rest(const motion::Character& character, std::vector<glm::vec3>& positions, std::vector<glm::vec3>& normals) {
+void pose_rest(const model::Character& character, std::vector<glm::vec3>& positions, std::vector<glm::vec3>& normals) {
     motion::Pose pose;
     motion::evaluate_rest(character, pose);
     motion::skin(character.mesh, pose, positions, normals);
@@ -32,7 +32,7 @@ void pose_rest(const motion::Character& character, std::vector<glm::vec3>& posit
 
 // The unit ball under an affine map is an ellipsoid, whose outward normal at p is the gradient of |A^-1 p|^2.
 void expect_ellipsoid_normals(const glm::mat4& world) {
-    const motion::Character ball = make_ball(world);
+    const model::Character ball = make_ball(world);
     std::vector<glm::vec3> positions, normals;
     pose_rest(ball, positions, normals);
     const glm::mat3 inverse = glm::inverse(glm::mat3(world));
@@ -57,7 +57,7 @@ TEST(Skin, NormalsStayOutwardUnderMirrors) {
 
 TEST(Skin, CollapsedJointsKeepUnitNormals) {
     for (const glm::vec3 scale : {glm::vec3(0, 0, 0), glm::vec3(1, 0, 0), glm::vec3(1, 1, 0)}) {
-        const motion::Character ball = make_ball(tests::matrix_of({{}, glm::quat(1, 0, 0, 0), scale}));
+        const model::Character ball = make_ball(tests::matrix_of({{}, glm::quat(1, 0, 0, 0), scale}));
         std::vector<glm::vec3> positions, normals;
         pose_rest(ball, positions, normals);
         for (const glm::vec3& normal : normals) ASSERT_NEAR(glm::length(normal), 1.0f, 1e-6f);
@@ -65,7 +65,7 @@ TEST(Skin, CollapsedJointsKeepUnitNormals) {
 }
 
 TEST(Skin, CollapsedJointsKeepTheUnposedNormalUnderMorphsToo) {
-    motion::Character ball = make_ball(glm::mat4(0.0f));
+    model::Character ball = make_ball(glm::mat4(0.0f));
     const std::size_t count = ball.mesh.vertex_count();
     ball.mesh.morphs.push_back(
         {0, 0, 1.0f, 0, std::vector<glm::vec3>(count), std::vector<glm::vec3>(count, glm::vec3(3, 0, 0))});
@@ -75,7 +75,7 @@ TEST(Skin, CollapsedJointsKeepTheUnposedNormalUnderMorphsToo) {
 }
 
 TEST(Skin, PaletteOfIdentitiesChangesNothing) {
-    motion::Character tentacle = tests::make_tentacle(5);
+    model::Character tentacle = tests::make_tentacle(5);
     motion::Pose pose;
     pose.palette.assign(tentacle.skeleton.palette.size(), glm::mat4(1.0f));
     std::vector<glm::vec3> positions, normals;
@@ -87,7 +87,7 @@ TEST(Skin, PaletteOfIdentitiesChangesNothing) {
 }
 
 TEST(Skin, MorphsAddTheirWeightsToTheirVerticesOnly) {
-    motion::Character ball = make_ball(glm::mat4(1.0f));
+    model::Character ball = make_ball(glm::mat4(1.0f));
     ball.mesh.morphs.push_back({0, 0, 0.25f, 10, std::vector<glm::vec3>(5, glm::vec3(4, 0, 0)), {}});
     ball.mesh.morphs.push_back({0, 1, 0.5f, 12, std::vector<glm::vec3>(1, glm::vec3(0, 2, 0)), {}});
     std::vector<glm::vec3> positions, normals;
@@ -99,11 +99,11 @@ TEST(Skin, MorphsAddTheirWeightsToTheirVerticesOnly) {
 }
 
 TEST(Skin, MorphWeightsFollowTheClip) {
-    motion::Character ball = make_ball(glm::mat4(1.0f));
+    model::Character ball = make_ball(glm::mat4(1.0f));
     ball.mesh.morphs.push_back({0, 0, 0.0f, 0, {glm::vec3(1, 0, 0)}, {}});
     ball.mesh.morphs.push_back({0, 1, 0.0f, 0, {glm::vec3(0, 1, 0)}, {}});
     ball.mesh.morphs.push_back({0, 2, 0.125f, 0, {glm::vec3(0, 0, 1)}, {}});  // a slot that the clip lacks
-    const motion::Channel weights{0, motion::Path::morph_weights, motion::Interpolation::linear, {0, 2}, {0, 1, 1, 3}};
+    const model::Channel weights{0, model::Path::morph_weights, model::Interpolation::linear, {0, 2}, {0, 1, 1, 3}};
     motion::Pose pose;
     motion::evaluate(ball, {"morph", 2.0, {weights}}, 0.5, pose);
     EXPECT_FLOAT_EQ(pose.morph_weights[0], 0.25f);

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <random>
 
-#include "motion/character.h"
+#include "model/character.h"
 
 namespace tests {
 
@@ -28,14 +28,14 @@ private:
     std::mt19937_64 engine_;
 };
 
-inline glm::mat4 matrix_of(const motion::Transform& t) {
+inline glm::mat4 matrix_of(const model::Transform& t) {
     glm::mat4 m = glm::mat4_cast(t.rotation);
     for (int axis = 0; axis < 3; ++axis) m[axis] *= t.scale[axis];
     m[3] = glm::vec4(t.translation, 1.0f);
     return m;
 }
 
-inline void add_tube(motion::Mesh& mesh, int rings, int sides, int joints, Random& random) {
+inline void add_tube(model::Mesh& mesh, int rings, int sides, int joints, Random& random) {
     for (int ring = 0; ring < rings; ++ring) {
         for (int side = 0; side < sides; ++side) {
             const float angle = 6.2831853f * static_cast<float>(side) / static_cast<float>(sides);
@@ -64,16 +64,16 @@ inline void add_tube(motion::Mesh& mesh, int rings, int sides, int joints, Rando
     mesh.uvs.resize(count);
     mesh.colors.resize(count, glm::u8vec4(255));
     mesh.tints.resize(count);
-    mesh.texture_ids.resize(count, motion::no_texture);
+    mesh.texture_ids.resize(count, model::no_texture);
 }
 
 // `joints` in a chain, a clip "writhe" of `duration` [s] with linear keys on every path of every joint.
-inline motion::Character make_tentacle(std::uint64_t seed, int joints = 5, float duration = 1.5f) {
+inline model::Character make_tentacle(std::uint64_t seed, int joints = 5, float duration = 1.5f) {
     Random random(seed);
-    motion::Character character;
+    model::Character character;
     character.name = "tentacle";
     for (int i = 0; i < joints; ++i) {
-        motion::Node node;
+        model::Node node;
         node.parent = i - 1;
         node.rest = {random.vector(-0.5f, 0.5f), random.rotation(), random.vector(0.7f, 1.4f)};
         node.rest_matrix = matrix_of(node.rest);
@@ -81,17 +81,16 @@ inline motion::Character make_tentacle(std::uint64_t seed, int joints = 5, float
         glm::mat4 bind = matrix_of({random.vector(-0.5f, 0.5f), random.rotation(), random.vector(0.7f, 1.4f)});
         character.skeleton.palette.push_back({i, bind});
     }
-    motion::Clip clip{"writhe", static_cast<double>(duration), {}};
+    model::Clip clip{"writhe", static_cast<double>(duration), {}};
     const int keys = 6;
     for (int i = 0; i < joints; ++i) {
-        for (const motion::Path path : {motion::Path::translation, motion::Path::rotation, motion::Path::scale}) {
-            motion::Channel channel{i, path, motion::Interpolation::linear, {}, {}};
+        for (const model::Path path : {model::Path::translation, model::Path::rotation, model::Path::scale}) {
+            model::Channel channel{i, path, model::Interpolation::linear, {}, {}};
             for (int key = 0; key < keys; ++key) {
                 channel.times.push_back(duration * static_cast<float>(key) / static_cast<float>(keys - 1));
-                const glm::vec3 v =
-                    path == motion::Path::scale ? random.vector(0.7f, 1.4f) : random.vector(-0.5f, 0.5f);
+                const glm::vec3 v = path == model::Path::scale ? random.vector(0.7f, 1.4f) : random.vector(-0.5f, 0.5f);
                 const glm::quat q = random.rotation();
-                if (path == motion::Path::rotation)
+                if (path == model::Path::rotation)
                     channel.values.insert(channel.values.end(), {q.x, q.y, q.z, q.w});
                 else
                     channel.values.insert(channel.values.end(), {v.x, v.y, v.z});

@@ -27,25 +27,25 @@ double code_of(double light) {
 }
 
 // Triangles with vertices of their own, each in one of two textures or in none; all else differs from corner to corner.
-motion::Mesh patchwork(std::size_t triangles, std::uint64_t seed) {
+model::Mesh patchwork(std::size_t triangles, std::uint64_t seed) {
     tests::Random random(seed);
     const auto byte = [&] { return static_cast<std::uint8_t>(random(0, 256)); };
-    motion::Mesh mesh;
+    model::Mesh mesh;
     for (std::uint32_t i = 0; i < 3 * triangles; ++i) {
         mesh.indices.push_back(i);
         mesh.positions.push_back(random.vector(-9, 9));
         mesh.normals.push_back(random.rotation() * glm::vec3(0, 0, 1));
         mesh.uvs.emplace_back(random(-2, 3), random(-2, 3));
         mesh.colors.emplace_back(byte(), byte(), byte(), byte());
-        mesh.tints.push_back(static_cast<motion::Tint>(byte() % motion::tint_count));
-        const std::uint8_t textures[] = {0, 1, motion::no_texture};
+        mesh.tints.push_back(static_cast<model::Tint>(byte() % model::tint_count));
+        const std::uint8_t textures[] = {0, 1, model::no_texture};
         mesh.texture_ids.push_back(textures[i / 3 % 3]);
         mesh.joints.emplace_back(byte() % 6, byte() % 6, byte() % 6, byte() % 6);
         const glm::vec4 weights(random(0, 1), random(0, 1), random(0, 1), 0.0f);
         mesh.weights.push_back(weights / (weights.x + weights.y + weights.z));
     }
     for (const auto& [width, height] : {std::pair{5, 3}, {2, 7}}) {
-        motion::Texture texture{width, height, {}};
+        model::Texture texture{width, height, {}};
         for (int i = 0; i < width * height; ++i) texture.texels.emplace_back(byte(), byte(), byte(), byte());
         mesh.textures.push_back(texture);
     }
@@ -53,7 +53,7 @@ motion::Mesh patchwork(std::size_t triangles, std::uint64_t seed) {
     return mesh;
 }
 
-std::vector<motion::SurfacePoint> points_on(const motion::Mesh& mesh, std::size_t each) {
+std::vector<motion::SurfacePoint> points_on(const model::Mesh& mesh, std::size_t each) {
     tests::Random random(99);
     std::vector<motion::SurfacePoint> points;
     for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
@@ -69,7 +69,7 @@ std::vector<motion::SurfacePoint> points_on(const motion::Mesh& mesh, std::size_
 }
 
 // In a pose that is not the mesh's own.
-PosedMesh some_pose(const motion::Mesh& mesh) {
+PosedMesh some_pose(const model::Mesh& mesh) {
     tests::Random random(5);
     PosedMesh pose;
     for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
@@ -84,7 +84,7 @@ struct Shares {
     std::array<std::uint32_t, 3> vertex;
     std::array<double, 3> share;
 
-    Shares(const motion::Mesh& mesh, const motion::SurfacePoint& point)
+    Shares(const model::Mesh& mesh, const motion::SurfacePoint& point)
         : vertex{mesh.indices[3 * point.triangle], mesh.indices[3 * point.triangle + 1],
                  mesh.indices[3 * point.triangle + 2]},
           share{1.0 - static_cast<double>(point.u) - static_cast<double>(point.v), point.u, point.v} {}
@@ -95,7 +95,7 @@ struct Shares {
     }
 };
 
-glm::dvec3 light_of_texel(const motion::Texture& texture, int x, int y) {
+glm::dvec3 light_of_texel(const model::Texture& texture, int x, int y) {
     const auto wrapped = [](int i, int size) { return ((i % size) + size) % size; };
     const glm::u8vec4 texel =
         texture
@@ -104,7 +104,7 @@ glm::dvec3 light_of_texel(const motion::Texture& texture, int x, int y) {
 }
 
 // Each texel weighs by how near its centre is, to one texel on both axes.
-glm::dvec3 light_of_texture(const motion::Texture& texture, const glm::dvec2& uv) {
+glm::dvec3 light_of_texture(const model::Texture& texture, const glm::dvec2& uv) {
     const double x = uv.x * texture.width, y = uv.y * texture.height;
     glm::dvec3 light(0);
     for (int i = static_cast<int>(std::floor(x)) - 1; i <= static_cast<int>(std::floor(x)) + 1; ++i)
@@ -114,7 +114,7 @@ glm::dvec3 light_of_texture(const motion::Texture& texture, const glm::dvec2& uv
     return light;
 }
 
-PointModel described(const motion::Mesh& mesh, const PosedMesh& pose, std::vector<motion::SurfacePoint> points) {
+PointModel described(const model::Mesh& mesh, const PosedMesh& pose, std::vector<motion::SurfacePoint> points) {
     PointModel model;
     model.surface = std::move(points);
     pointsample::describe(mesh, pose, model);
@@ -122,7 +122,7 @@ PointModel described(const motion::Mesh& mesh, const PosedMesh& pose, std::vecto
 }
 
 TEST(Attributes, PlacesAndNormalsAreThePosesBlended) {
-    const motion::Mesh mesh = patchwork(60, 1);
+    const model::Mesh mesh = patchwork(60, 1);
     const PosedMesh pose = some_pose(mesh);
     const PointModel model = described(mesh, pose, points_on(mesh, 20));
     for (std::size_t i = 0; i < model.surface.size(); ++i) {
@@ -136,14 +136,14 @@ TEST(Attributes, PlacesAndNormalsAreThePosesBlended) {
 }
 
 TEST(Attributes, WhereNormalsCancelOutTheTrianglesOwnStands) {
-    motion::Mesh mesh = tests::make_triangle({0, 0, 0}, {2, 0, 0}, {0, 0, -3});  // faces +y
+    model::Mesh mesh = tests::make_triangle({0, 0, 0}, {2, 0, 0}, {0, 0, -3});  // faces +y
     PosedMesh pose{mesh.positions, {{1, 0, 0}, {-1, 0, 0}, {0, 0, 1}}};
     EXPECT_EQ(described(mesh, pose, {{0, 0.5f, 0}}).normals[0], glm::vec3(0, 1, 0));
 }
 
 TEST(Attributes, ColorsAreTextureTimesVertexInLightAtThePoint) {
     constexpr double code = 0.51;  // half a code, and the float's rounding
-    const motion::Mesh mesh = patchwork(90, 2);
+    const model::Mesh mesh = patchwork(90, 2);
     const PointModel model = described(mesh, some_pose(mesh), points_on(mesh, 20));
     for (std::size_t i = 0; i < model.surface.size(); ++i) {
         const Shares shares(mesh, model.surface[i]);
@@ -151,7 +151,7 @@ TEST(Attributes, ColorsAreTextureTimesVertexInLightAtThePoint) {
             return glm::dvec3(light_of(mesh.colors[v].r), light_of(mesh.colors[v].g), light_of(mesh.colors[v].b));
         });
         const std::uint8_t texture = mesh.texture_ids[shares.vertex[0]];
-        if (texture != motion::no_texture)
+        if (texture != model::no_texture)
             light *= light_of_texture(mesh.textures[texture],
                                       shares.mean<glm::dvec2>([&](std::uint32_t v) { return mesh.uvs[v]; }));
         for (int channel = 0; channel < 3; ++channel)
@@ -162,7 +162,7 @@ TEST(Attributes, ColorsAreTextureTimesVertexInLightAtThePoint) {
 }
 
 TEST(Attributes, TintsAreOfTheCornerWithTheLargestShare) {
-    const motion::Mesh mesh = patchwork(60, 3);
+    const model::Mesh mesh = patchwork(60, 3);
     const PointModel model = described(mesh, some_pose(mesh), points_on(mesh, 20));
     for (std::size_t i = 0; i < model.surface.size(); ++i) {
         const Shares shares(mesh, model.surface[i]);
@@ -172,7 +172,7 @@ TEST(Attributes, TintsAreOfTheCornerWithTheLargestShare) {
 }
 
 TEST(Attributes, InfluencesAreTheFourHeaviestJointsOfAllCorners) {
-    const motion::Mesh mesh = patchwork(60, 4);
+    const model::Mesh mesh = patchwork(60, 4);
     const PointModel model = described(mesh, some_pose(mesh), points_on(mesh, 20));
     constexpr double rounding = 1e-6;
     for (std::size_t i = 0; i < model.surface.size(); ++i) {

@@ -12,14 +12,14 @@ using pointsample::Order;
 using pointsample::PointModel;
 
 // The same mesh with a pose's vertices.
-motion::Mesh in_pose(motion::Mesh mesh, const pointsample::PosedMesh& pose) {
+model::Mesh in_pose(model::Mesh mesh, const pointsample::PosedMesh& pose) {
     mesh.positions = pose.positions;
     mesh.normals = pose.normals;
     return mesh;
 }
 
 // Where the model's points are in a pose.
-tests::Sample sample_in(const PointModel& model, const motion::Mesh& posed) {
+tests::Sample sample_in(const PointModel& model, const model::Mesh& posed) {
     PointModel moved = model;
     for (std::size_t i = 0; i < model.size(); ++i) {
         const std::uint32_t triangle = model.surface[i].triangle;
@@ -31,13 +31,13 @@ tests::Sample sample_in(const PointModel& model, const motion::Mesh& posed) {
 }
 
 // The largest distance of any of so many spots from the first n points [units].
-double covering_radius(const tests::Sample& points, std::size_t n, const motion::Mesh& posed) {
+double covering_radius(const tests::Sample& points, std::size_t n, const model::Mesh& posed) {
     const double area = tests::area_of(posed);
     return tests::cover(tests::dense(posed, 100000), points, n, area, tests::Opposed::doubled).max *
            tests::densest(area, n);
 }
 
-std::vector<pointsample::PosedMesh> two_poses(const motion::Mesh& mesh) {
+std::vector<pointsample::PosedMesh> two_poses(const model::Mesh& mesh) {
     std::vector<pointsample::PosedMesh> poses(2, {mesh.positions, mesh.normals});
     for (glm::vec3& p : poses[1].positions) p.x *= p.x > 0 ? 2.5f : 1.0f;
     return poses;
@@ -46,7 +46,7 @@ std::vector<pointsample::PosedMesh> two_poses(const motion::Mesh& mesh) {
 TEST(Coverage, NoSpotInAnyPoseIsFartherThanItSays) {
     constexpr double between_spots = 1.01;  // for what lies between the spots that were looked at
     constexpr double pessimism = 1.35;      // the largest of distances is rounded up by half a candidate's cell
-    const motion::Mesh mesh = tests::make_bumpy();
+    const model::Mesh mesh = tests::make_bumpy();
     const std::vector<pointsample::PosedMesh> poses = two_poses(mesh);
     for (const Order order : {Order::progressive, Order::even, Order::uniform}) {
         const PointModel model = pointsample::sample(mesh, poses, {5000, 1, order, false});
@@ -55,7 +55,7 @@ TEST(Coverage, NoSpotInAnyPoseIsFartherThanItSays) {
             const auto [n, radius] = model.coverage[i];
             double farthest = 0;
             for (const pointsample::PosedMesh& pose : poses) {
-                const motion::Mesh posed = in_pose(mesh, pose);
+                const model::Mesh posed = in_pose(mesh, pose);
                 farthest = std::max(farthest, covering_radius(sample_in(model, posed), n, posed));
             }
             EXPECT_LE(farthest, radius * between_spots) << n << " points";
@@ -65,7 +65,7 @@ TEST(Coverage, NoSpotInAnyPoseIsFartherThanItSays) {
 }
 
 TEST(Coverage, FallsAndEndsWithAllPoints) {
-    const motion::Mesh mesh = tests::make_cube_and_plate();
+    const model::Mesh mesh = tests::make_cube_and_plate();
     const pointsample::PosedMesh rest{mesh.positions, mesh.normals};
     for (const std::size_t count : {1u, 2u, 5u, 1000u, 40000u}) {
         for (const Order order : {Order::progressive, Order::uniform}) {
@@ -84,7 +84,7 @@ TEST(Coverage, FallsAndEndsWithAllPoints) {
 TEST(Coverage, OfManyIndependentPointsIsNearlyWhatTheyHave) {
     constexpr std::size_t count = 160'000;
     constexpr double scatter = 1.25;  // the farthest of all spots differs from sample to sample
-    const motion::Mesh mesh = tests::make_ball();
+    const model::Mesh mesh = tests::make_ball();
     const pointsample::PosedMesh rest{mesh.positions, mesh.normals};
     const PointModel model = pointsample::sample(mesh, {&rest, 1}, {count, 1, Order::uniform, false});
     const double found = covering_radius(tests::sample_of(model, mesh), count, mesh);
@@ -120,7 +120,7 @@ TEST(HoleFreePoints, AreWhereTheSquareCoversTheRadius) {
 }
 
 TEST(HoleFreePoints, RiseWithTheSizeAndFallWithTheSplat) {
-    const motion::Mesh mesh = tests::make_bumpy();
+    const model::Mesh mesh = tests::make_bumpy();
     const pointsample::PosedMesh rest{mesh.positions, mesh.normals};
     const PointModel model = pointsample::sample(mesh, {&rest, 1}, {2000, 1, Order::progressive, false});
     std::size_t last = 1;

@@ -17,7 +17,7 @@ struct Triangle {
     }
 };
 
-Triangle triangle_of(const motion::Mesh& mesh, std::size_t i) {
+Triangle triangle_of(const model::Mesh& mesh, std::size_t i) {
     const auto corner = [&](std::size_t k) { return glm::dvec3(mesh.positions[mesh.indices[3 * i + k]]); };
     return {corner(0), corner(1), corner(2)};
 }
@@ -103,7 +103,7 @@ private:
 
 }  // namespace
 
-Sample sample_of(const pointsample::PointModel& model, const motion::Mesh& mesh) {
+Sample sample_of(const pointsample::PointModel& model, const model::Mesh& mesh) {
     Sample out;
     for (std::size_t i = 0; i < model.size(); ++i) {
         out.positions.push_back(model.positions[i]);
@@ -116,7 +116,7 @@ double densest(double area, std::size_t n) {
     return 2 * std::sqrt(area / (2 * std::sqrt(3.0) * static_cast<double>(n)));
 }
 
-double area_of(const motion::Mesh& mesh) {
+double area_of(const model::Mesh& mesh) {
     double area = 0;
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) area += triangle_of(mesh, t).area();
     return area;
@@ -152,7 +152,7 @@ Cover cover(const Sample& surface, const Sample& sample, std::size_t prefix, dou
     return out;
 }
 
-Sample dense(const motion::Mesh& mesh, std::size_t count) {
+Sample dense(const model::Mesh& mesh, std::size_t count) {
     const double area = area_of(mesh);
     Sample out;
     double along = 0.5;

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "motion/mesh.h"
+#include "model/mesh.h"
 #include "pointsample/point_model.h"
 
 namespace tests {
@@ -19,7 +19,7 @@ struct Sample {
 };
 
 // A model's points with the normals of their triangles in the mesh.
-Sample sample_of(const pointsample::PointModel& model, const motion::Mesh& mesh);
+Sample sample_of(const pointsample::PointModel& model, const model::Mesh& mesh);
 
 double densest(double area, std::size_t n);  // d_max
 
@@ -38,9 +38,9 @@ Cover cover(const Sample& surface, const Sample& sample, std::size_t prefix, dou
 
 // `count` area-uniform surface points: in each triangle its area's share within one, placed by an R2 sequence (Roberts
 // 2018). Triangles without a finite area have none.
-Sample dense(const motion::Mesh& mesh, std::size_t count);
+Sample dense(const model::Mesh& mesh, std::size_t count);
 
-double area_of(const motion::Mesh& mesh);  // of triangles that have a finite one
+double area_of(const model::Mesh& mesh);  // of triangles that have a finite one
 
 // Compact patches of nearly equal area: a dense sample halved across the longest side of its box, `levels` times, at
 // the widest gap within 1/64 of the median, so that no cut lies in a flat face; each point belongs to the patch on

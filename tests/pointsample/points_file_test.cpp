@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "motion/octahedral.h"
-#include "tests/pointsample/folder.h"
+#include "tests/model/folder.h"
 #include "tests/pointsample/models.h"
 
 namespace {
@@ -287,7 +287,7 @@ TEST(PointsFileRefuses, LiesWithAChecksumThatFits) {
         std::memcpy(&offset, whole.data() + 80 + 8 * index, sizeof offset);
         return static_cast<std::size_t>(offset);
     };
-    EXPECT_NE(refusal(patched(whole, section(1) + 11, std::uint8_t{motion::tint_count})), "");
+    EXPECT_NE(refusal(patched(whole, section(1) + 11, std::uint8_t{model::tint_count})), "");
     EXPECT_NE(refusal(patched(whole, section(1) + 6, std::int8_t{-128})), "");
     EXPECT_NE(refusal(patched(whole, section(3), ~std::uint32_t{0})), "");
     EXPECT_NE(refusal(patched(whole, section(5), ~std::uint32_t{0})), "");

@@ -18,8 +18,8 @@ using pointsample::PointModel;
 using pointsample::PosedMesh;
 
 // Each triangle with vertices of its own, so that it can be stretched by itself.
-motion::Mesh apart(const motion::Mesh& mesh) {
-    motion::Mesh out;
+model::Mesh apart(const model::Mesh& mesh) {
+    model::Mesh out;
     for (const std::uint32_t i : mesh.indices) {
         out.indices.push_back(static_cast<std::uint32_t>(out.positions.size()));
         out.positions.push_back(mesh.positions[i]);
@@ -29,19 +29,19 @@ motion::Mesh apart(const motion::Mesh& mesh) {
     return out;
 }
 
-std::vector<PosedMesh> poses_of(const motion::Mesh& mesh, std::size_t count) {
+std::vector<PosedMesh> poses_of(const model::Mesh& mesh, std::size_t count) {
     std::vector<PosedMesh> poses;
     while (poses.size() < count) poses.push_back({mesh.positions, mesh.normals});
     return poses;
 }
 
-bool is_upper(const motion::Mesh& mesh, std::size_t triangle) {
+bool is_upper(const model::Mesh& mesh, std::size_t triangle) {
     const auto y = [&](std::size_t k) { return mesh.positions[mesh.indices[3 * triangle + k]].y; };
     return y(0) + y(1) + y(2) > 0;
 }
 
 TEST(Poses, AHalfThatStretchesToTwiceGetsTwoThirds) {
-    const motion::Mesh sphere = apart(tests::make_sphere(1, 4));
+    const model::Mesh sphere = apart(tests::make_sphere(1, 4));
     std::vector<PosedMesh> poses = poses_of(sphere, 2);
     for (std::size_t i = 0; i < sphere.indices.size(); ++i)
         if (is_upper(sphere, i / 3)) poses[1].positions[i] *= std::sqrt(2.0f);
@@ -61,7 +61,7 @@ TEST(Poses, AHalfThatStretchesToTwiceGetsTwoThirds) {
 }
 
 TEST(Poses, ShrinkingTakesNoPointsAway) {
-    const motion::Mesh sphere = apart(tests::make_sphere(1, 3));
+    const model::Mesh sphere = apart(tests::make_sphere(1, 3));
     std::vector<PosedMesh> poses = poses_of(sphere, 2);
     for (glm::vec3& p : poses[1].positions) p *= 0.1f;
     const pointsample::Surface surface(sphere.indices, poses);
@@ -69,7 +69,7 @@ TEST(Poses, ShrinkingTakesNoPointsAway) {
 }
 
 TEST(Poses, VerticesThatAreNowhereStretchNothing) {
-    const motion::Mesh sphere = tests::make_sphere(1, 3);
+    const model::Mesh sphere = tests::make_sphere(1, 3);
     std::vector<PosedMesh> poses = poses_of(sphere, 2);
     const float nan = std::numeric_limits<float>::quiet_NaN();
     for (glm::vec3& p : poses[1].positions) p = glm::vec3(nan);
@@ -80,7 +80,7 @@ TEST(Poses, VerticesThatAreNowhereStretchNothing) {
 
 // A ball in a shell: hidden, unless it comes out in some pose.
 TEST(Poses, WhatIsSeenInOnePoseStays) {
-    motion::Mesh nested = tests::make_sphere(1, 4);
+    model::Mesh nested = tests::make_sphere(1, 4);
     const std::size_t shell = nested.triangle_count(), shell_vertices = nested.vertex_count();
     tests::append(nested, tests::make_sphere(0.5f, 3));
     std::vector<PosedMesh> poses = poses_of(nested, 3);
@@ -113,7 +113,7 @@ void expect_same_points(const PointModel& a, const PointModel& b) {
 }
 
 // A sphere whose upper half is stretched in one pose and its lower in another, with a ball in it that looks out.
-std::vector<PosedMesh> three_poses(const motion::Mesh& mesh) {
+std::vector<PosedMesh> three_poses(const model::Mesh& mesh) {
     std::vector<PosedMesh> poses = poses_of(mesh, 3);
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         if (mesh.positions[i].y > 0) poses[1].positions[i].x *= 2;
@@ -123,7 +123,7 @@ std::vector<PosedMesh> three_poses(const motion::Mesh& mesh) {
 }
 
 TEST(Poses, OnlyTheFirstIsAboveTheOthers) {
-    motion::Mesh mesh = apart(tests::make_sphere(1, 3));
+    model::Mesh mesh = apart(tests::make_sphere(1, 3));
     tests::append(mesh, apart(tests::make_sphere(0.9f, 2)));
     const std::vector<PosedMesh> poses = three_poses(mesh);
     for (const Order order : {Order::progressive, Order::even, Order::uniform}) {
@@ -150,7 +150,7 @@ TEST(Poses, OnlyTheFirstIsAboveTheOthers) {
 
 // By a power of two, so that no float is rounded otherwise.
 TEST(Poses, ALargerSurfaceHasTheSamePointsFartherApart) {
-    const motion::Mesh mesh = apart(tests::make_sphere(1, 3));
+    const model::Mesh mesh = apart(tests::make_sphere(1, 3));
     const std::vector<PosedMesh> poses = three_poses(mesh);
     for (const Order order : {Order::progressive, Order::even, Order::uniform}) {
         const PointModel model = pointsample::sample(mesh, poses, {800, 1, order, true});
@@ -173,7 +173,7 @@ TEST(Poses, ALargerSurfaceHasTheSamePointsFartherApart) {
 
 // What is stretched to four times its area has its points half as far apart in the first pose, in any order.
 TEST(Poses, APointsSpacingIsThatWhereItIsStretchedMost) {
-    const motion::Mesh sphere = apart(tests::make_sphere(1, 4));
+    const model::Mesh sphere = apart(tests::make_sphere(1, 4));
     std::vector<PosedMesh> poses = poses_of(sphere, 2);
     for (std::size_t i = 0; i < sphere.indices.size(); ++i)
         if (is_upper(sphere, i / 3)) poses[1].positions[i] *= 2.0f;

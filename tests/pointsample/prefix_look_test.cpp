@@ -15,9 +15,9 @@ namespace {
 
 // A ball, skin above and shirt below the equator, white and black in its +x and -x halves.
 pointsample::PointModel two_toned_ball() {
-    motion::Mesh ball = tests::make_sphere(1.0f, 5);
+    model::Mesh ball = tests::make_sphere(1.0f, 5);
     for (std::size_t v = 0; v < ball.vertex_count(); ++v) {
-        ball.tints[v] = ball.positions[v].y > 0 ? motion::Tint::skin : motion::Tint::shirt;
+        ball.tints[v] = ball.positions[v].y > 0 ? model::Tint::skin : model::Tint::shirt;
         ball.colors[v] = ball.positions[v].x > 0 ? glm::u8vec4(255) : glm::u8vec4(0, 0, 0, 255);
     }
     pointsample::SampleOptions options;
@@ -54,7 +54,7 @@ TEST(PrefixLook, WholeModelShowsItself) {
     const auto looks = pointsample::prefix_looks(model, model.size());
     for (std::size_t i = 0; i < model.size(); ++i) {
         EXPECT_NEAR(looks[i].color.r, model.colors[i].r, 1);
-        EXPECT_EQ(looks[i].tint[skin], model.tints[i] == motion::Tint::skin ? 255 : 0);
+        EXPECT_EQ(looks[i].tint[skin], model.tints[i] == model::Tint::skin ? 255 : 0);
     }
 }
 
@@ -88,7 +88,7 @@ TEST(PrefixLook, IsTheMeanLightAndTheSharesOfThePartThatIsNearest) {
         for (std::size_t i = 0; i < model.size(); ++i) model.normals[i] *= i % 2 ? -1.0f : 1.0f;  // facing anywhere
         for (const std::size_t count : {1u, 2u, 5u, 24u}) {
             std::vector<glm::dvec3> light(count, glm::dvec3(0));
-            std::vector<std::array<double, motion::tint_count>> tints(count, {{}});
+            std::vector<std::array<double, model::tint_count>> tints(count, {{}});
             std::vector<double> points(count);
             for (std::size_t i = 0; i < model.size(); ++i) {
                 const std::size_t owner = i < count ? i : owner_of(model, i, count);
@@ -103,7 +103,7 @@ TEST(PrefixLook, IsTheMeanLightAndTheSharesOfThePartThatIsNearest) {
                 for (int channel = 0; channel < 3; ++channel)
                     ASSERT_NEAR(looks[p].color[channel], 255 * std::sqrt(light[p][channel] / points[p]), half_a_code);
                 EXPECT_EQ(looks[p].color.a, 255);
-                for (std::size_t t = 1; t < motion::tint_count; ++t)
+                for (std::size_t t = 1; t < model::tint_count; ++t)
                     ASSERT_NEAR(looks[p].tint[t - 1], 255 * tints[p][t] / points[p], half_a_code) << t;
             }
         }

@@ -18,7 +18,7 @@ using pointsample::Order;
 using pointsample::PointModel;
 using tests::Opposed;
 
-PointModel sample(const motion::Mesh& mesh, std::size_t count, Order order, std::uint64_t seed) {
+PointModel sample(const model::Mesh& mesh, std::size_t count, Order order, std::uint64_t seed) {
     const pointsample::PosedMesh rest{mesh.positions, mesh.normals};
     return pointsample::sample(mesh, {&rest, 1}, {count, seed, order, false});
 }
@@ -37,7 +37,7 @@ struct Bounds {
 
 struct Subject {
     const char* name;
-    motion::Mesh (*make)();
+    model::Mesh (*make)();
     Bounds bounds;
 };
 
@@ -51,7 +51,7 @@ class EveryPrefix : public testing::TestWithParam<Subject> {};
 
 TEST_P(EveryPrefix, IsEven) {
     constexpr std::size_t count = 10000, few = 1024, enough_for_patches = 4096;
-    const motion::Mesh mesh = GetParam().make();
+    const model::Mesh mesh = GetParam().make();
     const Bounds& bounds = GetParam().bounds;
     const double area = tests::area_of(mesh);
     const tests::Sample spots = tests::dense(mesh, 100000);
@@ -85,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(PointModel, EveryPrefix,
 
 // The evaluator itself tells what is known: random points on any surface have these figures.
 TEST(Evaluator, KnowsRandomPoints) {
-    const motion::Mesh mesh = tests::make_bumpy();
+    const model::Mesh mesh = tests::make_bumpy();
     constexpr std::size_t count = 20000;
     const double area = tests::area_of(mesh);
     const tests::Sample random = tests::sample_of(sample(mesh, count, Order::uniform, 1), mesh);
@@ -107,7 +107,7 @@ TEST(Opening, StartsInTheMiddleAndNotAtTheCorners) {
 // A start at the corners would give a square the lattice of its middle, its sides' middles and so on, whose holes are
 // alike and are filled row by row: patches of 64 points would differ as much as random ones at some prefixes.
 TEST(Opening, KeepsLatticesOffASquare) {
-    const motion::Mesh mesh = tests::make_plane();
+    const model::Mesh mesh = tests::make_plane();
     const tests::Patches few(tests::dense(mesh, 262144), 4, false), many(tests::dense(mesh, 262144), 6, false);
     for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
         const tests::Sample points = tests::sample_of(sample(mesh, 10000, Order::progressive, seed), mesh);
@@ -121,7 +121,7 @@ TEST(EvenOrder, ReachesThreeQuartersOfTheDensestPacking) {
     constexpr std::size_t count = 10000;
     constexpr double reached = 0.76, farthest = 0.90;
     for (const auto make : {tests::make_ball, tests::make_bumpy, tests::make_cube_and_plate}) {
-        const motion::Mesh mesh = make();
+        const model::Mesh mesh = make();
         const PointModel model = sample(mesh, count, Order::even, 1);
         ASSERT_EQ(model.size(), count);
         const tests::Sample points = tests::sample_of(model, mesh);
@@ -134,12 +134,12 @@ TEST(EvenOrder, ReachesThreeQuartersOfTheDensestPacking) {
 }
 
 TEST(EvenOrder, FewPointsAreNoSpecialCase) {
-    const motion::Mesh mesh = tests::make_cube_and_plate();
+    const model::Mesh mesh = tests::make_cube_and_plate();
     for (const std::size_t count : {1u, 2u, 3u, 17u}) EXPECT_EQ(sample(mesh, count, Order::even, 1).size(), count);
 }
 
 TEST(Spacing, IsTheDistanceToThePointsBefore) {
-    const motion::Mesh mesh = tests::make_ball();
+    const model::Mesh mesh = tests::make_ball();
     const PointModel model = sample(mesh, 3000, Order::progressive, 1);
     ASSERT_EQ(model.spacing.size(), model.size());
     EXPECT_EQ(model.spacing[0], std::numeric_limits<float>::infinity());
@@ -164,7 +164,7 @@ TEST(Spacing, IsTheDistanceToThePointsBefore) {
 }
 
 TEST(Spacing, OfIndependentPointsIsWhatIsExpectedOfTheSurfaceThatIsSeen) {
-    motion::Mesh mesh = tests::make_ball();
+    model::Mesh mesh = tests::make_ball();
     const std::size_t shown = mesh.triangle_count();
     for (std::size_t i = 0; i < 3 * shown; ++i) mesh.indices.push_back(mesh.indices[i]);  // and as much within, unseen
     const std::size_t vertices = mesh.vertex_count();

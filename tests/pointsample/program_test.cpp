@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "pointsample/points_file.h"
-#include "tests/pointsample/gltf_builder.h"
+#include "tests/model/gltf_builder.h"
 
 #if defined(__SANITIZE_ADDRESS__)
 #define GRANDSTAND_SANITIZED 1

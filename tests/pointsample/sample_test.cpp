@@ -22,7 +22,7 @@ namespace {
 using pointsample::PointModel;
 using pointsample::SampleOptions;
 
-PointModel sample(const motion::Mesh& mesh, std::size_t count, bool visible_only = false, std::uint64_t seed = 1) {
+PointModel sample(const model::Mesh& mesh, std::size_t count, bool visible_only = false, std::uint64_t seed = 1) {
     const pointsample::PosedMesh rest{mesh.positions, mesh.normals};
     return pointsample::sample(mesh, {&rest, 1}, {count, seed, pointsample::Order::progressive, visible_only});
 }
@@ -84,7 +84,7 @@ double patch_chi_squared(const std::vector<glm::vec3>& points, std::size_t n) {
 }
 
 TEST(Sampler, GivesExactlyTheCountAskedFor) {
-    const motion::Mesh sphere = tests::make_sphere(1, 3);
+    const model::Mesh sphere = tests::make_sphere(1, 3);
     for (const std::size_t count : {1u, 2u, 63u, 1024u, 1025u, 16384u, 40001u}) {
         for (const bool visible_only : {false, true}) {
             const PointModel model = sample(sphere, count, visible_only);
@@ -97,11 +97,11 @@ TEST(Sampler, GivesExactlyTheCountAskedFor) {
 }
 
 TEST(Sampler, AnyCountOfAnySurfaceInAnyOrder) {
-    motion::Mesh speck = tests::make_triangle({1000, 1000, 1000}, {1000.0001f, 1000, 1000}, {1000, 1000.0001f, 1000});
-    motion::Mesh twice = tests::make_cube();
+    model::Mesh speck = tests::make_triangle({1000, 1000, 1000}, {1000.0001f, 1000, 1000}, {1000, 1000.0001f, 1000});
+    model::Mesh twice = tests::make_cube();
     tests::append(twice, tests::make_cube());
-    motion::Mesh needle = tests::make_triangle({0, 0, 0}, {1, 0, 0}, {0.5f, 1e-12f, 0});
-    for (const motion::Mesh& mesh : {speck, twice, needle, tests::make_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})}) {
+    model::Mesh needle = tests::make_triangle({0, 0, 0}, {1, 0, 0}, {0.5f, 1e-12f, 0});
+    for (const model::Mesh& mesh : {speck, twice, needle, tests::make_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})}) {
         const pointsample::PosedMesh rest{mesh.positions, mesh.normals};
         for (const auto order :
              {pointsample::Order::progressive, pointsample::Order::even, pointsample::Order::uniform}) {
@@ -115,7 +115,7 @@ TEST(Sampler, AnyCountOfAnySurfaceInAnyOrder) {
 }
 
 TEST(Sampler, ASeedNamesOneSequenceOnAnyThreadCount) {
-    motion::Mesh nested = tests::make_sphere(1, 3);
+    model::Mesh nested = tests::make_sphere(1, 3);
     tests::append(nested, tests::make_sphere(0.5f, 2));
     const auto run = [&](std::size_t threads, std::uint64_t seed) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
@@ -130,7 +130,7 @@ TEST(Sampler, ASeedNamesOneSequenceOnAnyThreadCount) {
 }
 
 TEST(Sampler, AFewUniformPointsOfAVisibleSurfaceAreFound) {
-    const motion::Mesh sphere = tests::make_sphere(1, 4);
+    const model::Mesh sphere = tests::make_sphere(1, 4);
     const pointsample::PosedMesh rest{sphere.positions, sphere.normals};
     for (const std::size_t count : {1, 2, 64, 65, 5000})
         EXPECT_EQ(pointsample::sample(sphere, {&rest, 1}, {count, 1, pointsample::Order::uniform, true}).size(), count);
@@ -146,7 +146,7 @@ std::uint64_t hash_of(const std::vector<T>& values, std::uint64_t hash = 0xcbf29
 
 // One expected value on every machine, compiler and optimisation level.
 TEST(Sampler, PointsAreTheSameBitsEverywhere) {
-    const motion::Mesh sphere = tests::make_sphere(1, 4);
+    const model::Mesh sphere = tests::make_sphere(1, 4);
     const pointsample::PosedMesh rest{sphere.positions, sphere.normals};
     const auto hash = [&](pointsample::Order order) {
         const PointModel model = pointsample::sample(sphere, {&rest, 1}, {4096, 1, order, false});
@@ -175,7 +175,7 @@ double distance_to_triangle(const glm::dvec3& p, const glm::dvec3& a, const glm:
 }
 
 TEST(Sampler, PointsAreOnTheSurfaceToATenMillionth) {
-    const motion::Mesh sphere = tests::make_sphere(3, 3);
+    const model::Mesh sphere = tests::make_sphere(3, 3);
     const double diagonal = 6 * std::numbers::sqrt3, limit = 1e-7 * diagonal;
     const pointsample::PosedMesh rest{sphere.positions, sphere.normals};
     for (const pointsample::Order order :
@@ -191,14 +191,14 @@ TEST(Sampler, PointsAreOnTheSurfaceToATenMillionth) {
 }
 
 TEST(Sampler, FlatFacesHaveExactNormals) {
-    const motion::Mesh cube = tests::make_cube();
+    const model::Mesh cube = tests::make_cube();
     const PointModel model = sample(cube, 3000);
     for (std::size_t i = 0; i < model.size(); ++i)
         ASSERT_EQ(model.normals[i], cube.normals[cube.indices[std::size_t{3} * model.surface[i].triangle]]);
 }
 
 TEST(Sampler, PointsLieOnTheirTriangles) {
-    const motion::Mesh sphere = tests::make_sphere(2, 2);
+    const model::Mesh sphere = tests::make_sphere(2, 2);
     const PointModel model = sample(sphere, 5000);
     for (std::size_t i = 0; i < model.size(); ++i) {
         const std::uint32_t triangle = model.surface[i].triangle;
@@ -225,7 +225,7 @@ TEST(Sampler, AreaIsTheSurfaces) {
 
 TEST(Sampler, EqualAreasGetEqualCounts) {
     constexpr double random_is = 1.0, limit = 0.35;
-    const motion::Mesh sphere = tests::make_sphere(1, 6);
+    const model::Mesh sphere = tests::make_sphere(1, 6);
     for (const std::uint64_t seed : {1u, 2u, 3u}) {
         const PointModel model = sample(sphere, 16384, false, seed);
         for (const std::size_t n : {4096u, 6000u, 16384u}) EXPECT_LT(patch_chi_squared(model.positions, n), limit) << n;
@@ -247,7 +247,7 @@ TEST(Sampler, FacesOfACubeShareEveryPrefix) {
 }
 
 TEST(Sampler, OneHugeTriangleAmongTinyOnesGetsItsShare) {
-    const motion::Mesh mesh = tests::make_huge_among_tiny();
+    const model::Mesh mesh = tests::make_huge_among_tiny();
     const PointModel model = sample(mesh, 4000);
     double on_huge = 0;
     for (std::size_t n = 0; n < model.size(); ++n) {
@@ -287,7 +287,7 @@ TEST(Sampler, MomentsOfTheSphereAreItsClosedForms) {
 }
 
 TEST(Sampler, MomentsOfTheSquareAreItsClosedForms) {
-    motion::Mesh square = tests::make_triangle({0, 0, 0}, {1, 0, 0}, {1, 1, 0});
+    model::Mesh square = tests::make_triangle({0, 0, 0}, {1, 0, 0}, {1, 1, 0});
     tests::append(square, tests::make_triangle({0, 0, 0}, {1, 1, 0}, {0, 1, 0}));
     constexpr std::size_t count = 10000;
     const PointModel model = sample(square, count);
@@ -318,7 +318,7 @@ TEST(Sampler, EveryCapOfTheSphereHasItsShare) {
 }
 
 TEST(Sampler, HiddenPointsAreReplaced) {
-    motion::Mesh nested = tests::make_sphere(1, 4);
+    model::Mesh nested = tests::make_sphere(1, 4);
     tests::append(nested, tests::make_sphere(0.5f, 3));
     const PointModel all = sample(nested, 5000, false), visible = sample(nested, 5000, true);
     const auto inside = [](const PointModel& model) {
@@ -333,7 +333,7 @@ TEST(Sampler, HiddenPointsAreReplaced) {
 }
 
 TEST(Sampler, RefusesWhatNobodyCanSee) {
-    motion::Mesh turned = tests::make_sphere(1, 2);  // faces its own inside
+    model::Mesh turned = tests::make_sphere(1, 2);  // faces its own inside
     for (glm::vec3& normal : turned.normals) normal = -normal;
     EXPECT_THROW(sample(turned, 100, true), std::runtime_error);
     EXPECT_NO_THROW(sample(turned, 100, false));
@@ -343,12 +343,12 @@ TEST(Sampler, RefusesWhatNobodyCanSee) {
 
 TEST(Sampler, TrianglesWithoutAnAreaGetNoPoints) {
     const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
-    motion::Mesh mesh = tests::make_triangle({nan, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    model::Mesh mesh = tests::make_triangle({nan, 0, 0}, {1, 0, 0}, {0, 1, 0});
     tests::append(mesh, tests::make_triangle({infinity, 0, 0}, {1, 0, 0}, {0, 1, 0}));
     tests::append(mesh, tests::make_triangle({0, 0, 0}, {1, 1, 1}, {2, 2, 2}));
     tests::append(mesh, tests::make_triangle({3, 3, 3}, {3, 3, 3}, {3, 3, 3}));
     EXPECT_THROW(sample(mesh, 10), std::runtime_error);
-    EXPECT_THROW(sample(motion::Mesh{}, 10), std::runtime_error);
+    EXPECT_THROW(sample(model::Mesh{}, 10), std::runtime_error);
     tests::append(mesh, tests::make_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}));
     for (const bool visible_only : {false, true}) {
         const PointModel model = sample(mesh, 500, visible_only);
@@ -359,7 +359,7 @@ TEST(Sampler, TrianglesWithoutAnAreaGetNoPoints) {
 
 TEST(Sampler, TinyAndHugeSurfacesWorkAlike) {
     for (const float size : {1e-15f, 1e15f}) {
-        const motion::Mesh sphere = tests::make_sphere(size, 3);
+        const model::Mesh sphere = tests::make_sphere(size, 3);
         const PointModel model = sample(sphere, 1000, true);
         EXPECT_EQ(model.hidden_removed, 0u);
         for (const glm::vec3& normal : model.normals) ASSERT_NEAR(glm::length(normal), 1.0f, 1e-5f);
@@ -367,7 +367,7 @@ TEST(Sampler, TinyAndHugeSurfacesWorkAlike) {
 }
 
 TEST(Sampler, InfluencesAreTheCornersBlended) {
-    motion::Mesh mesh = tests::make_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    model::Mesh mesh = tests::make_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
     mesh.joints = {{1, 2, 0, 0}, {2, 3, 0, 0}, {4, 5, 6, 7}};
     mesh.weights = {{0.75f, 0.25f, 0, 0}, {0.5f, 0.5f, 0, 0}, {0.7f, 0.1f, 0.1f, 0.1f}};
     const PointModel model = sample(mesh, 300);
@@ -385,18 +385,18 @@ TEST(Sampler, InfluencesAreTheCornersBlended) {
 }
 
 TEST(Sampler, TintsAreTheNearestCorners) {
-    motion::Mesh mesh = tests::make_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
-    mesh.tints = {motion::Tint::skin, motion::Tint::hair, motion::Tint::shirt};
+    model::Mesh mesh = tests::make_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    mesh.tints = {model::Tint::skin, model::Tint::hair, model::Tint::shirt};
     const PointModel model = sample(mesh, 300);
     for (std::size_t i = 0; i < model.size(); ++i) {
         const float u = model.surface[i].u, v = model.surface[i].v, w = 1 - u - v;
-        const motion::Tint expected = w > u && w > v ? mesh.tints[0] : u > v ? mesh.tints[1] : mesh.tints[2];
+        const model::Tint expected = w > u && w > v ? mesh.tints[0] : u > v ? mesh.tints[1] : mesh.tints[2];
         ASSERT_EQ(model.tints[i], expected);
     }
 }
 
 TEST(Sampler, ColorsAreTextureTimesVertexInLinearLight) {
-    motion::Mesh mesh = tests::make_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    model::Mesh mesh = tests::make_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
     mesh.textures.push_back({2, 1, {{0, 10, 255, 255}, {255, 10, 0, 255}}});
     mesh.texture_ids.assign(3, 0);
     const auto color_at = [&](float u) {
@@ -415,7 +415,7 @@ TEST(Sampler, ColorsAreTextureTimesVertexInLinearLight) {
 }
 
 TEST(Sampler, TheLargestTextureCoordinatesStayInTheTexture) {
-    motion::Mesh mesh = tests::make_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    model::Mesh mesh = tests::make_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
     mesh.textures.push_back({3, 1, {{0, 10, 255, 255}, {255, 10, 0, 255}, {0, 10, 255, 255}}});
     mesh.texture_ids.assign(3, 0);
     for (const float sign : {1.0f, -1.0f}) {
@@ -425,7 +425,7 @@ TEST(Sampler, TheLargestTextureCoordinatesStayInTheTexture) {
 }
 
 TEST(Sampler, ProgressOnlyRisesAndEndsAtOne) {
-    const motion::Mesh sphere = tests::make_sphere(1, 2);
+    const model::Mesh sphere = tests::make_sphere(1, 2);
     double last = 0;
     const pointsample::PosedMesh rest{sphere.positions, sphere.normals};
     pointsample::sample(sphere, {&rest, 1}, {100000, 1, pointsample::Order::progressive, false}, [&](double fraction) {
@@ -442,7 +442,7 @@ bool sees_outside(const pointsample::Visibility& visibility, const glm::vec3& po
 }
 
 TEST(Visibility, EndsAtAClosedSurface) {
-    const motion::Mesh sphere = tests::make_sphere(1, 3);
+    const model::Mesh sphere = tests::make_sphere(1, 3);
     const pointsample::Visibility visibility(sphere.positions, sphere.indices);
     for (const glm::vec3& direction : random_on_sphere(200, 5)) {
         EXPECT_FALSE(sees_outside(visibility, 0.9f * direction, direction, false));
@@ -453,7 +453,7 @@ TEST(Visibility, EndsAtAClosedSurface) {
 }
 
 TEST(Visibility, FindsAHoleOfFivePercentOfTheSky) {
-    motion::Mesh cup = tests::make_sphere(1, 4);
+    model::Mesh cup = tests::make_sphere(1, 4);
     std::vector<std::uint32_t> kept;
     for (std::size_t i = 0; i < cup.indices.size(); i += 3) {
         const glm::vec3 center =
@@ -475,7 +475,7 @@ TEST(Visibility, NothingHidesNothing) {
 
 // What is hidden is told by the points before, but runs of these are short: ten thousand alike are all told right.
 TEST(Visibility, ManyPointsAreToldAsOneByOne) {
-    motion::Mesh nested = tests::make_sphere(1, 3);
+    model::Mesh nested = tests::make_sphere(1, 3);
     tests::append(nested, tests::make_sphere(0.5f, 3));
     const pointsample::Visibility visibility(nested.positions, nested.indices);
     std::vector<pointsample::Place> places;

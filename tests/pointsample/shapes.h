@@ -8,22 +8,22 @@
 #include <utility>
 #include <vector>
 
-#include "motion/mesh.h"
+#include "model/mesh.h"
 
 namespace tests {
 
 // Gives every vertex what a plain white mesh has.
-inline void fill_looks(motion::Mesh& mesh) {
+inline void fill_looks(model::Mesh& mesh) {
     const std::size_t count = mesh.positions.size();
     mesh.uvs.resize(count);
     mesh.colors.resize(count, glm::u8vec4(255));
-    mesh.tints.resize(count, motion::Tint::none);
-    mesh.texture_ids.resize(count, motion::no_texture);
+    mesh.tints.resize(count, model::Tint::none);
+    mesh.texture_ids.resize(count, model::no_texture);
     mesh.joints.resize(count, glm::u16vec4(0));
     mesh.weights.resize(count, glm::vec4(1, 0, 0, 0));
 }
 
-inline void append(motion::Mesh& mesh, const motion::Mesh& part) {
+inline void append(model::Mesh& mesh, const model::Mesh& part) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     mesh.positions.insert(mesh.positions.end(), part.positions.begin(), part.positions.end());
     mesh.normals.insert(mesh.normals.end(), part.normals.begin(), part.normals.end());
@@ -32,7 +32,7 @@ inline void append(motion::Mesh& mesh, const motion::Mesh& part) {
 }
 
 // A subdivided octahedron: 8 * 4^levels triangles of nearly equal area on the sphere.
-inline motion::Mesh make_sphere(float radius, int levels) {
+inline model::Mesh make_sphere(float radius, int levels) {
     using glm::vec3;
     std::vector<vec3> points{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
     std::vector<std::uint32_t> indices{0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5};
@@ -51,7 +51,7 @@ inline motion::Mesh make_sphere(float radius, int levels) {
         }
         indices = finer;
     }
-    motion::Mesh mesh;
+    model::Mesh mesh;
     for (const vec3& point : points) {
         mesh.positions.push_back(radius * point);
         mesh.normals.push_back(point);
@@ -62,8 +62,8 @@ inline motion::Mesh make_sphere(float radius, int levels) {
 }
 
 // [0, 1]^3: two triangles a face, four vertices each.
-inline motion::Mesh make_cube() {
-    motion::Mesh mesh;
+inline model::Mesh make_cube() {
+    model::Mesh mesh;
     for (int axis = 0; axis < 3; ++axis) {
         for (const float side : {0.0f, 1.0f}) {
             const auto first = static_cast<std::uint32_t>(mesh.positions.size());
@@ -87,8 +87,8 @@ inline motion::Mesh make_cube() {
 }
 
 // A triangle from explicit corners, facing their counter-clockwise side.
-inline motion::Mesh make_triangle(glm::vec3 a, glm::vec3 b, glm::vec3 c) {
-    motion::Mesh mesh;
+inline model::Mesh make_triangle(glm::vec3 a, glm::vec3 b, glm::vec3 c) {
+    model::Mesh mesh;
     mesh.positions = {a, b, c};
     mesh.normals.assign(3, glm::normalize(glm::cross(b - a, c - a)));
     mesh.indices = {0, 1, 2};

@@ -21,7 +21,7 @@ namespace {
 using pointsample::PosedMesh;
 using pointsample::Surface;
 
-double area_of(const PosedMesh& pose, const motion::Mesh& mesh, std::size_t triangle) {
+double area_of(const PosedMesh& pose, const model::Mesh& mesh, std::size_t triangle) {
     const auto at = [&](std::size_t k) { return glm::dvec3(pose.positions[mesh.indices[3 * triangle + k]]); };
     return 0.5 * glm::length(glm::cross(at(1) - at(0), at(2) - at(0)));
 }
@@ -29,13 +29,13 @@ double area_of(const PosedMesh& pose, const motion::Mesh& mesh, std::size_t tria
 // --- Poses
 
 TEST(SpreadPoses, TakeTheClipsInTurnAtEvenTimesFromTheirStart) {
-    const motion::Character character = tests::make_rig(4, 3);
+    const model::Character character = tests::make_rig(4, 3);
     const std::vector<int> clips{2, 0};
     for (const std::size_t count : {1u, 2u, 5u, 8u}) {
         const std::vector<PosedMesh> poses = pointsample::spread_poses(character, clips, count);
         ASSERT_EQ(poses.size(), count);
         for (std::size_t slot = 0; slot < clips.size(); ++slot) {
-            const motion::Clip& clip = character.clips[static_cast<std::size_t>(clips[slot])];
+            const model::Clip& clip = character.clips[static_cast<std::size_t>(clips[slot])];
             const double of_this_clip = std::ceil(static_cast<double>(count) / 2);  // the most that any clip has
             for (std::size_t i = slot; i < count; i += 2) {
                 const double share = static_cast<double>(i / 2) / of_this_clip;
@@ -51,7 +51,7 @@ TEST(SpreadPoses, TakeTheClipsInTurnAtEvenTimesFromTheirStart) {
 }
 
 TEST(SpreadPoses, WithoutClipsAreTheRestPoseAlone) {
-    const motion::Character character = tests::make_rig(4, 3);
+    const model::Character character = tests::make_rig(4, 3);
     const std::vector<PosedMesh> poses = pointsample::spread_poses(character, {}, 7);
     motion::Pose pose;
     PosedMesh rest;
@@ -63,7 +63,7 @@ TEST(SpreadPoses, WithoutClipsAreTheRestPoseAlone) {
 }
 
 TEST(PosedMesh, FacesLookToTheSideOfTheirCornersNormals) {
-    motion::Mesh mesh = tests::make_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    model::Mesh mesh = tests::make_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
     for (const float side : {1.0f, -1.0f}) {
         const PosedMesh pose{mesh.positions, {{0, 0.9f, side}, {0.9f, 0, side}, {0, 0, -0.5f * side}}};
         EXPECT_EQ(pointsample::face_normal(mesh.indices, pose, 0), glm::vec3(0, 0, side));
@@ -78,7 +78,7 @@ TEST(PosedMesh, FacesLookToTheSideOfTheirCornersNormals) {
 // --- Area and stretch
 
 TEST(Surface, CountsATriangleWithTheLargestAreaOfAnyPose) {
-    const motion::Mesh mesh = tests::make_bumpy();
+    const model::Mesh mesh = tests::make_bumpy();
     for (const std::vector<float>& sizes : {std::vector<float>{1, 3, 0.5f}, {1, 0.5f, 2}, {2, 1, 1}}) {
         std::vector<PosedMesh> poses;
         for (const float size : sizes) {
@@ -103,7 +103,7 @@ TEST(Surface, CountsATriangleWithTheLargestAreaOfAnyPose) {
 }
 
 TEST(Surface, NothingStretchesMoreThanAThousandTimes) {
-    motion::Mesh mesh = tests::make_triangle({0, 0, 0}, {1, 0, 0}, {0, 1e-6f, 0});
+    model::Mesh mesh = tests::make_triangle({0, 0, 0}, {1, 0, 0}, {0, 1e-6f, 0});
     tests::append(mesh, tests::make_triangle({0, 0, 0}, {0, 0, 1}, {0, 1, 0}));
     std::vector<PosedMesh> poses(2, {mesh.positions, mesh.normals});
     poses[1].positions[2].y = 1;
@@ -114,7 +114,7 @@ TEST(Surface, NothingStretchesMoreThanAThousandTimes) {
 
 TEST(Surface, IsScaledToItsLongestSideAroundItsCentroid) {
     for (const glm::vec3& sides : {glm::vec3(2, 1, 1), glm::vec3(1, 3, 2), glm::vec3(1, 2, 8)}) {
-        motion::Mesh cube = tests::make_cube();
+        model::Mesh cube = tests::make_cube();
         for (glm::vec3& p : cube.positions) p = p * sides + glm::vec3(100, -50, 7);
         const PosedMesh pose{cube.positions, cube.normals};
         const Surface surface(cube.indices, {&pose, 1});
@@ -130,7 +130,7 @@ TEST(Surface, IsScaledToItsLongestSideAroundItsCentroid) {
 // --- The line
 
 TEST(SurfaceLine, HasEveryTriangleWithAnAreaOnce) {
-    motion::Mesh mesh = tests::make_bumpy();
+    model::Mesh mesh = tests::make_bumpy();
     tests::append(mesh, tests::make_triangle({0, 0, 0}, {0, 0, 0}, {1, 1, 1}));
     const PosedMesh pose{mesh.positions, mesh.normals};
     const Surface surface(mesh.indices, {&pose, 1});
@@ -143,7 +143,7 @@ TEST(SurfaceLine, HasEveryTriangleWithAnAreaOnce) {
 // Runs of a Hilbert curve are patches: a quarter of a sphere's triangles has a box far smaller than the sphere's, an
 // eightieth one of a few triangles' size. Rows of a grid, or two sorted axes of three, would be bands around it.
 TEST(SurfaceLine, RunsAreCompactAtEveryScale) {
-    const motion::Mesh mesh = tests::make_sphere(1, 5);
+    const model::Mesh mesh = tests::make_sphere(1, 5);
     const PosedMesh pose{mesh.positions, mesh.normals};
     const Surface surface(mesh.indices, {&pose, 1});
     const std::vector<std::uint32_t> line = pointsample::order_along_line(surface);
@@ -214,7 +214,7 @@ pointsample::Candidates candidates_of(const Surface& surface, std::size_t count,
     return candidates;
 }
 
-std::vector<PosedMesh> half_stretched(const motion::Mesh& mesh) {
+std::vector<PosedMesh> half_stretched(const model::Mesh& mesh) {
     std::vector<PosedMesh> poses(2, {mesh.positions, mesh.normals});
     for (glm::vec3& p : poses[1].positions)
         if (p.y > 0) p.y *= 4;
@@ -222,7 +222,7 @@ std::vector<PosedMesh> half_stretched(const motion::Mesh& mesh) {
 }
 
 TEST(Stratifier, EveryTriangleHasItsShareOfCandidatesToOne) {
-    const motion::Mesh mesh = tests::make_bumpy();
+    const model::Mesh mesh = tests::make_bumpy();
     const std::vector<PosedMesh> poses = half_stretched(mesh);
     const Surface surface(mesh.indices, poses);
     for (const std::size_t count : {1000u, 5000u, 100000u}) {
@@ -236,7 +236,7 @@ TEST(Stratifier, EveryTriangleHasItsShareOfCandidatesToOne) {
 }
 
 TEST(Stratifier, CandidatesAreWhereTheirPlaceOnTheSurfaceIs) {
-    const motion::Mesh mesh = tests::make_bumpy();
+    const model::Mesh mesh = tests::make_bumpy();
     const std::vector<PosedMesh> poses = half_stretched(mesh);
     const Surface surface(mesh.indices, poses);
     const pointsample::Candidates candidates = candidates_of(surface, 5000, 2, 5000);
@@ -252,7 +252,7 @@ TEST(Stratifier, CandidatesAreWhereTheirPlaceOnTheSurfaceIs) {
 }
 
 TEST(Stratifier, BatchesMakeNoDifferenceAndSeedsDo) {
-    const motion::Mesh mesh = tests::make_sphere(1, 2);
+    const model::Mesh mesh = tests::make_sphere(1, 2);
     const PosedMesh pose{mesh.positions, mesh.normals};
     const Surface surface(mesh.indices, {&pose, 1});
     const auto places = [&](std::uint64_t seed, std::size_t batch) {
@@ -268,7 +268,7 @@ TEST(Stratifier, BatchesMakeNoDifferenceAndSeedsDo) {
 
 // The mean of a corner's share, of its square, and how often it is below a tenth, are known.
 void expect_uniform_in_triangles(int levels, std::size_t candidates, std::uint64_t seeds) {
-    const motion::Mesh mesh = tests::make_sphere(1, levels);
+    const model::Mesh mesh = tests::make_sphere(1, levels);
     const PosedMesh pose{mesh.positions, mesh.normals};
     const Surface surface(mesh.indices, {&pose, 1});
     double near[3]{}, mean[3]{}, mean_square[3]{};
@@ -300,7 +300,7 @@ TEST(Stratifier, PlacesInLargeTrianglesAndInTinyOnesAreUniform) {
 }
 
 TEST(Stratifier, ThePlaceInATriangleIsIndependentOfWhichItIs) {
-    const motion::Mesh mesh = tests::make_sphere(1, 0);  // eight equal triangles, of which one is drawn
+    const model::Mesh mesh = tests::make_sphere(1, 0);  // eight equal triangles, of which one is drawn
     const PosedMesh pose{mesh.positions, mesh.normals};
     const Surface surface(mesh.indices, {&pose, 1});
     constexpr double few = 500, five_deviations = 5 * 0.236;  // of a corner's share

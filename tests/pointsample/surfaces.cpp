@@ -12,14 +12,14 @@ namespace tests {
 namespace {
 
 // An icosahedron whose edges are cut into `cuts`, on the unit sphere; vertices shared.
-motion::Mesh geodesic(int cuts) {
+model::Mesh geodesic(int cuts) {
     const float t = (1.0f + std::sqrt(5.0f)) / 2.0f;
     const glm::vec3 corner[12] = {{-1, t, 0},  {1, t, 0},  {-1, -t, 0}, {1, -t, 0}, {0, -1, t},  {0, 1, t},
                                   {0, -1, -t}, {0, 1, -t}, {t, 0, -1},  {t, 0, 1},  {-t, 0, -1}, {-t, 0, 1}};
     const int face[20][3] = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
                              {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
                              {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
-    motion::Mesh mesh;
+    model::Mesh mesh;
     std::map<std::array<long, 3>, std::uint32_t> known;
     const auto vertex = [&](const glm::vec3& p) {
         const glm::vec3 n = glm::normalize(p);
@@ -54,7 +54,7 @@ float bumps(const glm::vec3& p, float height, float frequency, int octaves) {
     return sum;
 }
 
-void add_box(motion::Mesh& mesh, const glm::vec3& low, const glm::vec3& high) {
+void add_box(model::Mesh& mesh, const glm::vec3& low, const glm::vec3& high) {
     const std::uint32_t first = static_cast<std::uint32_t>(mesh.positions.size());
     for (int i = 0; i < 8; ++i)
         mesh.positions.push_back({i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z});
@@ -64,7 +64,7 @@ void add_box(motion::Mesh& mesh, const glm::vec3& low, const glm::vec3& high) {
 }
 
 // Normals as the triangles around each vertex have it, by area; and plain looks.
-motion::Mesh finished(motion::Mesh mesh) {
+model::Mesh finished(model::Mesh mesh) {
     mesh.normals.assign(mesh.positions.size(), glm::vec3(0));
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
         const glm::vec3 a = mesh.positions[mesh.indices[i]];
@@ -79,19 +79,19 @@ motion::Mesh finished(motion::Mesh mesh) {
 
 }  // namespace
 
-motion::Mesh make_ball() {
+model::Mesh make_ball() {
     return finished(geodesic(32));
 }
 
-motion::Mesh make_plane() {
-    motion::Mesh mesh;
+model::Mesh make_plane() {
+    model::Mesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
     mesh.indices = {0, 1, 2, 0, 2, 3};
     return finished(mesh);
 }
 
-motion::Mesh make_huge_among_tiny() {
-    motion::Mesh mesh;
+model::Mesh make_huge_among_tiny() {
+    model::Mesh mesh;
     constexpr std::uint32_t columns = 100, rows = 50;
     for (std::uint32_t j = 0; j <= rows; ++j)
         for (std::uint32_t i = 0; i <= columns; ++i)
@@ -107,8 +107,8 @@ motion::Mesh make_huge_among_tiny() {
     return finished(mesh);
 }
 
-motion::Mesh make_cube_and_plate() {
-    motion::Mesh mesh;
+model::Mesh make_cube_and_plate() {
+    model::Mesh mesh;
     add_box(mesh, {0, 0, 0}, {1, 1, 1});
     constexpr float thickness = 0.002f;
     const float side = -thickness + std::sqrt(thickness * thickness + 3.0f);  // 2 s^2 + 4 s t = 6
@@ -116,15 +116,15 @@ motion::Mesh make_cube_and_plate() {
     return finished(mesh);
 }
 
-motion::Mesh make_bumpy() {
-    motion::Mesh mesh = geodesic(17);
+model::Mesh make_bumpy() {
+    model::Mesh mesh = geodesic(17);
     for (glm::vec3& p : mesh.positions) p *= 1.0f + bumps(p, 0.35f, 3.0f, 2);
     return finished(mesh);
 }
 
-motion::Mesh make_scan() {
+model::Mesh make_scan() {
     constexpr int cuts = 66;
-    motion::Mesh mesh = geodesic(cuts);
+    model::Mesh mesh = geodesic(cuts);
     constexpr float edge = 1.1f / cuts;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const std::uint64_t a = pointsample::hash(7, 2 * i), b = pointsample::hash(7, 2 * i + 1);

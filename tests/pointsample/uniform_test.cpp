@@ -30,7 +30,7 @@ double slack(std::size_t cells) {
 }
 
 TEST(Uniform, TrianglesAreDrawnByTheirArea) {
-    const motion::Mesh mesh = tests::make_bumpy();
+    const model::Mesh mesh = tests::make_bumpy();
     const pointsample::PosedMesh rest{mesh.positions, mesh.normals};
     const pointsample::Surface surface(mesh.indices, {&rest, 1});
     const pointsample::AliasTable table(surface);
@@ -43,7 +43,7 @@ TEST(Uniform, TrianglesAreDrawnByTheirArea) {
 }
 
 TEST(Uniform, PlacesInATriangleAreUniform) {
-    const motion::Mesh mesh = tests::make_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    const model::Mesh mesh = tests::make_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
     const pointsample::PosedMesh rest{mesh.positions, mesh.normals};
     const pointsample::AliasTable table(pointsample::Surface(mesh.indices, {&rest, 1}));
     constexpr std::size_t count = 200000, steps = 8;
@@ -63,7 +63,7 @@ TEST(Uniform, PlacesInATriangleAreUniform) {
 }
 
 TEST(Uniform, NeighboursInTheStreamAreIndependent) {
-    const motion::Mesh mesh = tests::make_cube();
+    const model::Mesh mesh = tests::make_cube();
     const pointsample::PosedMesh rest{mesh.positions, mesh.normals};
     const pointsample::AliasTable table(pointsample::Surface(mesh.indices, {&rest, 1}));
     constexpr std::size_t count = 200000, triangles = 12;

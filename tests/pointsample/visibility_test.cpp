@@ -18,9 +18,9 @@ using pointsample::Visibility;
 constexpr std::size_t directions_asked = 64, rays_after_hidden = 8;  // visibility.h
 
 // A sphere about `center` without what is nearer to one of `holes` than the cosine says. 0.9: a twentieth of the sky.
-motion::Mesh pierced(const glm::vec3& center, const std::vector<glm::vec3>& holes, float cosine = 0.9f) {
-    const motion::Mesh sphere = tests::make_sphere(1, 5);
-    motion::Mesh mesh;
+model::Mesh pierced(const glm::vec3& center, const std::vector<glm::vec3>& holes, float cosine = 0.9f) {
+    const model::Mesh sphere = tests::make_sphere(1, 5);
+    model::Mesh mesh;
     for (std::size_t i = 0; i < sphere.indices.size(); i += 3) {
         glm::vec3 middle(0);
         for (std::size_t k = 0; k < 3; ++k) middle += sphere.positions[sphere.indices[i + k]] / 3.0f;
@@ -41,7 +41,7 @@ const glm::vec3 up(0, 0, 1), far_off(9, 0, 0);
 // A sphere with a hole on either side: from its middle a place that faces one sees no other. And a whole sphere from
 // which nothing is seen.
 struct TwoHolesAndAPrison {
-    motion::Mesh mesh;
+    model::Mesh mesh;
     Place one, other, imprisoned{far_off, up};
 
     explicit TwoHolesAndAPrison(const glm::vec3& hole)
@@ -58,7 +58,7 @@ std::vector<glm::vec3> axes() {
     return axes;
 }
 
-std::vector<char> look(const motion::Mesh& mesh, const std::vector<Place>& places) {
+std::vector<char> look(const model::Mesh& mesh, const std::vector<Place>& places) {
     return Visibility(mesh.positions, mesh.indices).look(places, false);
 }
 
@@ -106,7 +106,7 @@ TEST(Visibility, AHoleOfATwentiethOfTheSkyIsFoundWhereverItIs) {
     tests::Random random(3);
     for (int i = 0; i < 25; ++i) {
         const glm::vec3 hole = random.rotation() * up;
-        const motion::Mesh mesh = pierced(glm::vec3(0), {hole});
+        const model::Mesh mesh = pierced(glm::vec3(0), {hole});
         // Facing the hole, or nearly aside of it.
         const glm::vec3 aside = glm::normalize(glm::cross(hole, random.rotation() * up));
         for (const glm::vec3& normal : {hole, glm::normalize(hole + aside), glm::normalize(0.6f * hole + aside)})
@@ -116,9 +116,9 @@ TEST(Visibility, AHoleOfATwentiethOfTheSkyIsFoundWhereverItIs) {
 }
 
 // A flat floor under a lid: the sky is a ring above the horizon.
-motion::Mesh under_a_lid(float elevation) {
+model::Mesh under_a_lid(float elevation) {
     const float height = std::tan(elevation), side = 1 / std::sqrt(2.0f);  // the lid's corners are one away
-    motion::Mesh mesh = tests::make_triangle({-200, -200, 0}, {200, -200, 0}, {0, 300, 0});
+    model::Mesh mesh = tests::make_triangle({-200, -200, 0}, {200, -200, 0}, {0, 300, 0});
     const std::vector<glm::vec3> lid{
         {-side, -side, height}, {side, -side, height}, {side, side, height}, {-side, side, height}};
     tests::append(mesh, tests::make_triangle(lid[0], lid[1], lid[2]));
@@ -137,9 +137,9 @@ TEST(Visibility, WhatIsOpenBelowTwoDegreesAboveTheSurfaceIsNotSeen) {
 
 TEST(Visibility, ClothesAHairAboveTheSkinHideIt) {
     constexpr float gap = 2e-4f;  // of a size of two: 0.3 mm on a person
-    motion::Mesh mesh = tests::make_sphere(1, 4);
+    model::Mesh mesh = tests::make_sphere(1, 4);
     for (const glm::vec3& place : {glm::vec3(0), glm::vec3(500, 0, 0)}) {
-        motion::Mesh dressed = mesh, clothes = tests::make_sphere(1 + gap, 4);
+        model::Mesh dressed = mesh, clothes = tests::make_sphere(1 + gap, 4);
         tests::append(dressed, clothes);
         for (glm::vec3& position : dressed.positions) position += place;
         std::vector<Place> skin, cloth;
@@ -158,12 +158,12 @@ TEST(Visibility, ClothesAHairAboveTheSkinHideIt) {
 
 // Each of three balls comes out of its shell in a pose of its own; one never does.
 TEST(HiddenTest, APointStaysIfItIsSeenInAnyPose) {
-    motion::Mesh mesh = tests::make_sphere(1, 3);
+    model::Mesh mesh = tests::make_sphere(1, 3);
     const std::size_t shell_vertices = mesh.vertex_count(), shell = mesh.triangle_count();
-    const motion::Mesh ball = tests::make_sphere(0.2f, 1);
+    const model::Mesh ball = tests::make_sphere(0.2f, 1);
     const std::vector<glm::vec3> places{{0.5f, 0, 0}, {0, 0.5f, 0}, {0, 0, 0.5f}, {-0.5f, 0, 0}};
     for (const glm::vec3& place : places) {
-        motion::Mesh moved = ball;
+        model::Mesh moved = ball;
         for (glm::vec3& position : moved.positions) position += place;
         tests::append(mesh, moved);
     }
@@ -185,7 +185,7 @@ TEST(HiddenTest, APointStaysIfItIsSeenInAnyPose) {
 
 // In its second pose the shell has grown with what is in it.
 TEST(HiddenTest, EveryPoseHidesItsOwnPoints) {
-    motion::Mesh mesh = tests::make_sphere(1, 3);
+    model::Mesh mesh = tests::make_sphere(1, 3);
     const std::size_t shell = mesh.triangle_count();
     tests::append(mesh, tests::make_sphere(0.5f, 2));
     std::vector<pointsample::PosedMesh> poses(2, {mesh.positions, mesh.normals});

@@ -8,7 +8,7 @@ namespace reference {
 
 namespace {
 
-using motion::Tint;
+using model::Tint;
 
 enum Node : std::uint16_t { root, chest, mirrored };
 
@@ -16,11 +16,11 @@ enum Node : std::uint16_t { root, chest, mirrored };
 struct Part {
     glm::vec3 center, half;  // [m]
     Node lower = root, upper = root;
-    std::uint8_t texture = motion::no_texture;
+    std::uint8_t texture = model::no_texture;
     Tint tint = Tint::none;
 };
 
-void add_vertex(motion::Mesh& mesh, const Part& part, glm::vec3 position, glm::vec3 normal, glm::vec2 uv,
+void add_vertex(model::Mesh& mesh, const Part& part, glm::vec3 position, glm::vec3 normal, glm::vec2 uv,
                 glm::u8vec4 color, Tint tint) {
     const float share = 0.5f + 0.5f * (position.y - part.center.y) / part.half.y;
     mesh.positions.push_back(position);
@@ -33,7 +33,7 @@ void add_vertex(motion::Mesh& mesh, const Part& part, glm::vec3 position, glm::v
     mesh.weights.push_back({1 - share, share, 0, 0});
 }
 
-void add_box(motion::Mesh& mesh, const Part& part) {
+void add_box(model::Mesh& mesh, const Part& part) {
     const auto own = static_cast<std::uint8_t>(mesh.vertex_count());  // no two parts have the same colours
     for (int axis = 0; axis < 3; ++axis) {
         for (const float side : {-1.0f, 1.0f}) {
@@ -44,7 +44,7 @@ void add_box(motion::Mesh& mesh, const Part& part) {
             const auto first = static_cast<std::uint32_t>(mesh.vertex_count());
             const int face = 2 * axis + (side > 0);
             // One face a tint, so that a part shows them all if it has one.
-            const Tint tint = part.tint == Tint::none ? Tint::none : static_cast<Tint>(face % motion::tint_count);
+            const Tint tint = part.tint == Tint::none ? Tint::none : static_cast<Tint>(face % model::tint_count);
             const auto shade = static_cast<std::uint8_t>(90 + 30 * face);
             for (const glm::vec2 corner : {glm::vec2(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {
                 const glm::vec3 position = part.center + part.half * (normal + corner.x * right + corner.y * up);
@@ -62,7 +62,7 @@ void add_box(motion::Mesh& mesh, const Part& part) {
 }
 
 // A wavy flag to the left of the body, textured in its lower half.
-void add_sheet(motion::Mesh& mesh) {
+void add_sheet(model::Mesh& mesh) {
     constexpr int cells = 6;
     const Part plain{{-0.75f, 1.0f, 0}, {0.35f, 0.45f, 0}, chest, chest};
     Part textured = plain;
@@ -89,8 +89,8 @@ void add_sheet(motion::Mesh& mesh) {
 }
 
 // No two texels of a row alike, and none of a column.
-motion::Texture make_texture(int width, int height, glm::ivec3 step) {
-    motion::Texture texture{width, height, {}};
+model::Texture make_texture(int width, int height, glm::ivec3 step) {
+    model::Texture texture{width, height, {}};
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)
             texture.texels.emplace_back(70 + (step.x * x + 11 * y) % 180, 70 + (step.y * y + 23 * x) % 180,
@@ -103,35 +103,35 @@ glm::quat turn(float angle, glm::vec3 axis) {
     return {std::cos(angle / 2), v.x, v.y, v.z};
 }
 
-void add_keys(motion::Channel& channel, float time, std::initializer_list<float> values) {
+void add_keys(model::Channel& channel, float time, std::initializer_list<float> values) {
     channel.times.push_back(time);
     channel.values.insert(channel.values.end(), values);
 }
 
-motion::Clip stand() {
-    motion::Clip clip{"stand", 1.0, {}};
-    motion::Channel bend{chest, motion::Path::rotation, motion::Interpolation::linear, {}, {}};
+model::Clip stand() {
+    model::Clip clip{"stand", 1.0, {}};
+    model::Channel bend{chest, model::Path::rotation, model::Interpolation::linear, {}, {}};
     for (const float t : {0.0f, 0.5f, 1.0f}) {
         const glm::quat q = turn(0.2f + 0.9f * t, {0.3f, 1.0f, 0.6f});
         add_keys(bend, t, {q.x, q.y, q.z, q.w});
     }
-    motion::Channel swell{root, motion::Path::morph_weights, motion::Interpolation::linear, {}, {}};
+    model::Channel swell{root, model::Path::morph_weights, model::Interpolation::linear, {}, {}};
     add_keys(swell, 0, {0.1f});
     add_keys(swell, 1, {0.9f});
     clip.channels = {bend, swell};
     return clip;
 }
 
-motion::Clip leap() {
-    motion::Clip clip{"leap", 0.4, {}};
-    motion::Channel rise{root, motion::Path::translation, motion::Interpolation::cubic_spline, {}, {}};
+model::Clip leap() {
+    model::Clip clip{"leap", 0.4, {}};
+    model::Channel rise{root, model::Path::translation, model::Interpolation::cubic_spline, {}, {}};
     add_keys(rise, 0, {0, 0, 0, 0, 0, 0, 0.4f, 2, 0});
     add_keys(rise, 0.4f, {-0.5f, -1, 0, 0.1f, 0.4f, -0.1f, 0, 0, 0});
-    motion::Channel stretch{mirrored, motion::Path::scale, motion::Interpolation::step, {}, {}};
+    model::Channel stretch{mirrored, model::Path::scale, model::Interpolation::step, {}, {}};
     add_keys(stretch, 0, {-1, 1, 1});
     add_keys(stretch, 0.2f, {-1.3f, 0.8f, 1.1f});
     const glm::quat from = turn(-0.8f, {1, 0, 0}), to = turn(0.6f, {1, 0.2f, 0});
-    motion::Channel bend{chest, motion::Path::rotation, motion::Interpolation::linear, {}, {}};
+    model::Channel bend{chest, model::Path::rotation, model::Interpolation::linear, {}, {}};
     add_keys(bend, 0, {from.x, from.y, from.z, from.w});
     add_keys(bend, 0.4f, {to.x, to.y, to.z, to.w});
     clip.channels = {rise, stretch, bend};
@@ -140,13 +140,13 @@ motion::Clip leap() {
 
 }  // namespace
 
-motion::Character make_harlequin(bool open) {
-    motion::Character harlequin;
+model::Character make_harlequin(bool open) {
+    model::Character harlequin;
     harlequin.name = open ? "open harlequin" : "harlequin";
-    motion::Mesh& mesh = harlequin.mesh;
+    model::Mesh& mesh = harlequin.mesh;
     mesh.textures = {make_texture(8, 8, {37, 53, 29}), make_texture(24, 10, {61, 17, 43})};
     if (open) std::swap(mesh.textures[0], mesh.textures[1]);  // nor do two harlequins share theirs
-    add_box(mesh, {{0, 0.9f, 0}, {0.28f, 0.45f, 0.17f}, root, chest, motion::no_texture, Tint::skin});
+    add_box(mesh, {{0, 0.9f, 0}, {0.28f, 0.45f, 0.17f}, root, chest, model::no_texture, Tint::skin});
     add_box(mesh, {{0.05f, 1.55f, 0.05f}, {0.14f, 0.18f, 0.16f}, chest, chest, 0});
     add_box(mesh, {{0.45f, 1.1f, 0.1f}, {0.12f, 0.35f, 0.1f}, chest, chest, 1});
     add_box(mesh, {{0.12f, 0.2f, 0}, {0.09f, 0.2f, 0.2f}, mirrored, mirrored});
@@ -154,7 +154,7 @@ motion::Character make_harlequin(bool open) {
     if (open) add_sheet(mesh);
     mesh.double_sided = open;
 
-    motion::MorphTarget belly;
+    model::MorphTarget belly;
     belly.node = root;
     for (std::size_t v = 0; v < 24; ++v) {  // the first box
         belly.position_offsets.push_back(0.12f * mesh.normals[v]);
@@ -162,7 +162,7 @@ motion::Character make_harlequin(bool open) {
     }
     mesh.morphs.push_back(belly);
 
-    motion::Skeleton& skeleton = harlequin.skeleton;
+    model::Skeleton& skeleton = harlequin.skeleton;
     skeleton.nodes.resize(3);
     skeleton.nodes[chest].parent = root;
     skeleton.nodes[chest].rest.translation = {0, 1, 0};

@@ -2,12 +2,12 @@
 // differ, and there are textures beside plain parts, all tints, a bending joint, a mirrored part and a morph.
 #pragma once
 
-#include "motion/character.h"
+#include "model/character.h"
 
 namespace reference {
 
 // Two clips: "stand" (1 s) and "leap" (0.4 s), in which no two poses are alike. `open`: with a sheet that is seen from
 // both sides.
-motion::Character make_harlequin(bool open);
+model::Character make_harlequin(bool open);
 
 }  // namespace reference

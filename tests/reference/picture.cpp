@@ -151,15 +151,15 @@ private:
         return code * code;
     }
 
-    static glm::dvec3 tint_of(const Person& person, motion::Tint tint) {
+    static glm::dvec3 tint_of(const Person& person, model::Tint tint) {
         switch (tint) {
-            case motion::Tint::skin:
+            case model::Tint::skin:
                 return linear(person.palette.skin);
-            case motion::Tint::hair:
+            case model::Tint::hair:
                 return linear(person.palette.hair);
-            case motion::Tint::shirt:
+            case model::Tint::shirt:
                 return linear(person.palette.shirt);
-            case motion::Tint::trousers:
+            case model::Tint::trousers:
                 return linear(person.palette.trousers);
             default:
                 return glm::dvec3(1);
@@ -176,7 +176,7 @@ private:
     }
 
     void draw_mesh(const Person& person) {
-        const motion::Mesh& mesh = person.figure->mesh();
+        const model::Mesh& mesh = person.figure->mesh();
         const Surface& surface = person.figure->pose(person.slot, person.tick);
         const glm::dmat3 axes = axes_of(person);
         const glm::dvec3 origin = person.origin - camera_.position;
@@ -197,7 +197,7 @@ private:
                     return blend(glm::dvec2(mesh.uvs[a]), glm::dvec2(mesh.uvs[b]), glm::dvec2(mesh.uvs[c]), by);
                 };
                 Shade texel = Shade::exactly(glm::dvec3(1));
-                if (mesh.texture_ids[c] != motion::no_texture) {
+                if (mesh.texture_ids[c] != model::no_texture) {
                     const glm::dvec2 here = uv(spot.share);
                     texel = texels(mesh, mesh.texture_ids[c], here, uv(spot.right) - here, uv(spot.below) - here);
                 }
@@ -227,12 +227,12 @@ private:
         }
     };
 
-    static std::vector<Level> levels_of(const motion::Mesh& mesh, int id) {
+    static std::vector<Level> levels_of(const model::Mesh& mesh, int id) {
         constexpr int largest_side = 1024;
         int side = 1;
-        for (const motion::Texture& texture : mesh.textures)
+        for (const model::Texture& texture : mesh.textures)
             while (side < std::max(texture.width, texture.height) && side < largest_side) side *= 2;
-        const motion::Texture& texture = mesh.textures[static_cast<std::size_t>(id)];
+        const model::Texture& texture = mesh.textures[static_cast<std::size_t>(id)];
         Level level{side, {}};
         for (int y = 0; y < side; ++y) {
             for (int x = 0; x < side; ++x) {
@@ -261,7 +261,7 @@ private:
 
     // The mipmap is the one whose texels are nearest to pixels in size. Drivers measure that as they like, within a
     // factor of the square root of two.
-    Shade texels(const motion::Mesh& mesh, int id, const glm::dvec2& uv, const glm::dvec2& per_x,
+    Shade texels(const model::Mesh& mesh, int id, const glm::dvec2& uv, const glm::dvec2& per_x,
                  const glm::dvec2& per_y) {
         std::vector<Level>& levels = mipmaps_[{&mesh, id}];
         if (levels.empty()) levels = levels_of(mesh, id);
@@ -286,7 +286,7 @@ private:
 
     void draw_splats(const Person& person) {
         constexpr std::size_t few = 8;  // none of so few may happen to face the camera: they are seen from behind too
-        const motion::Mesh& mesh = person.figure->mesh();
+        const model::Mesh& mesh = person.figure->mesh();
         const Surface& surface = person.figure->pose(person.slot, person.tick);
         const std::vector<Figure::Look>& looks = person.figure->looks(person.points);
         const bool both_sides = mesh.double_sided || person.points <= few;
@@ -305,8 +305,8 @@ private:
             const double away = glm::dot(facing, glm::normalize(at));
             if (!both_sides && away > edge_on) continue;
             glm::dvec3 tint(0);
-            for (int t = 0; t < motion::tint_count; ++t)
-                tint += looks[p].tint[t] * tint_of(person, static_cast<motion::Tint>(t));
+            for (int t = 0; t < model::tint_count; ++t)
+                tint += looks[p].tint[t] * tint_of(person, static_cast<model::Tint>(t));
             const Shade light = light_seen(facing, at, both_sides);
             splat(person, at, both_sides || away < -edge_on,
                   Shade::between(stored(looks[p].albedo * tint * light.low),
@@ -386,7 +386,7 @@ private:
     const Camera& camera_;
     bool collecting_ = false;
     std::vector<double> nearest_;  // [m] by pixel, then place
-    std::map<std::pair<const motion::Mesh*, int>, std::vector<Level>> mipmaps_;
+    std::map<std::pair<const model::Mesh*, int>, std::vector<Level>> mipmaps_;
     Picture picture_;
 };
 

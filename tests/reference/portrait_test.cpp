@@ -5,7 +5,7 @@
 #include <memory>
 #include <numbers>
 
-#include "pointsample/mesh_file.h"
+#include "model/io/mesh_file.h"
 #include "scene/cast.h"
 #include "scene/person.h"
 #include "tests/reference/harlequin.h"
@@ -110,7 +110,7 @@ private:
 };
 
 std::unique_ptr<Model> built_in() {
-    motion::Character person = scene::make_person();
+    model::Character person = scene::make_person();
     const std::vector<int> clips = scene::cast(person).clips;
     return std::make_unique<Model>(std::move(person), clips, 600);
 }
@@ -122,7 +122,7 @@ std::unique_ptr<Model> harlequin(bool open) {
 std::unique_ptr<Model> from_file(const std::string& name) {
     const std::filesystem::path file = std::filesystem::path(GRANDSTAND_SHARED) / "assets" / name;
     if (!std::filesystem::exists(file)) return nullptr;
-    motion::Character character = pointsample::load_mesh(file);
+    model::Character character = model::load_mesh(file);
     const std::vector<int> clips = scene::cast(character).clips;
     const std::size_t points = character.mesh.triangle_count() / 2;
     return std::make_unique<Model>(std::move(character), clips, points);
@@ -185,10 +185,10 @@ TEST_F(Portrait, OfAnySizeIsTheReferences) {
 // Whoever is tall or small, and whatever their file's unit.
 TEST_F(Portrait, SplatsAreNoWiderThanWhomTheyBelongTo) {
     for (const float unit : {1.0f, 0.2f}) {
-        motion::Character character = reference::make_harlequin(false);
+        model::Character character = reference::make_harlequin(false);
         character.clips.clear();
         for (glm::vec3& position : character.mesh.positions) position *= unit;
-        for (motion::MorphTarget& morph : character.mesh.morphs)
+        for (model::MorphTarget& morph : character.mesh.morphs)
             for (glm::vec3& offset : morph.position_offsets) offset *= unit;
         const Model model(std::move(character), {}, 100);
         render::Renderer renderer(nothing, {}, std::vector{model.assets()}, width, height);
@@ -205,9 +205,9 @@ TEST_F(Portrait, SplatsAreNoWiderThanWhomTheyBelongTo) {
 
 // Of stripes finer than a device's texture their mean is left.
 TEST_F(Portrait, OfTooFineTexturesIsTheReferences) {
-    motion::Character character = reference::make_harlequin(false);
+    model::Character character = reference::make_harlequin(false);
     for (const bool columns : {false, true}) {
-        motion::Texture& stripes = character.mesh.textures[columns];
+        model::Texture& stripes = character.mesh.textures[columns];
         stripes = {columns ? 2048 : 2, columns ? 2 : 2048, {}};
         for (int i = 0; i < 2 * 2048; ++i)
             stripes.texels.push_back((columns ? i : i / 2) % 2 == 0 ? glm::u8vec4(250, 80, 90, 255)
@@ -223,8 +223,8 @@ TEST_F(Portrait, OfTooFineTexturesIsTheReferences) {
 // Of stripes that a device's texture has room for, each is seen from close enough.
 TEST_F(Portrait, OfFineTexturesKeepsTheirStripes) {
     least_plain_share_ = 0.2;  // half floats tell coordinates to half a texel
-    motion::Character character = reference::make_harlequin(false);
-    for (motion::Texture& stripes : character.mesh.textures) {
+    model::Character character = reference::make_harlequin(false);
+    for (model::Texture& stripes : character.mesh.textures) {
         stripes = {1000, 2, {}};
         for (int i = 0; i < 2 * 1000; ++i)
             stripes.texels.push_back(i / 5 % 2 == 0 ? glm::u8vec4(250, 80, 90, 255) : glm::u8vec4(90, 200, 60, 255));

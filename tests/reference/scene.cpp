@@ -36,7 +36,7 @@ glm::dvec3 Camera::ray(double x, double y) const {
     return forward + (2 * x / width - 1) * tan_x * right + (1 - 2 * y / height) * tan_y * up;
 }
 
-Figure::Figure(const motion::Character& character, std::vector<int> clips, const pointsample::PointModel* points)
+Figure::Figure(const model::Character& character, std::vector<int> clips, const pointsample::PointModel* points)
     : character_(character), mesh_(&character.mesh), points_(points), clips_(std::move(clips)) {
     glm::dvec2 reach = extent_y(struck(0, 0));
     height_ = reach.y - reach.x;

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "motion/character.h"
+#include "model/character.h"
 #include "motion/pose_table.h"
 #include "pointsample/point_model.h"
 #include "scene/camera_path.h"
@@ -40,9 +40,9 @@ class Figure {
 public:
     // Both must outlive the figure. `clips` index character.clips, in the order that people name them; none: the rest
     // pose is all there is. `points` may be null if nobody is drawn by them.
-    Figure(const motion::Character& character, std::vector<int> clips, const pointsample::PointModel* points);
+    Figure(const model::Character& character, std::vector<int> clips, const pointsample::PointModel* points);
 
-    const motion::Mesh& mesh() const { return *mesh_; }
+    const model::Mesh& mesh() const { return *mesh_; }
     const pointsample::PointModel& points() const { return *points_; }
     const Surface& pose(int slot, std::int64_t tick) const;  // [1/60 s] of the clip's own time, within it
     double height() const { return height_; }                // [model units] in the first clip's first pose
@@ -51,16 +51,16 @@ public:
 
     // How one of the first `count` points looks when there are no others.
     struct Look {
-        glm::dvec3 albedo;                // linear
-        double tint[motion::tint_count];  // shares by Tint, sum 1
+        glm::dvec3 albedo;               // linear
+        double tint[model::tint_count];  // shares by Tint, sum 1
     };
     const std::vector<Look>& looks(std::size_t count) const;
 
 private:
     Surface struck(int slot, std::int64_t tick) const;
 
-    const motion::Character& character_;
-    const motion::Mesh* mesh_;
+    const model::Character& character_;
+    const model::Mesh* mesh_;
     const pointsample::PointModel* points_;
     std::vector<int> clips_;
     double height_ = 0, middle_ = 0, area_ = 0;

@@ -5,7 +5,7 @@
 
 namespace reference {
 
-Model::Model(motion::Character from, std::vector<int> played, std::size_t point_count)
+Model::Model(model::Character from, std::vector<int> played, std::size_t point_count)
     : character(std::move(from)), clips(std::move(played)), figure(character, clips, &points) {
     constexpr std::size_t poses_to_cover = 4, byte_budget = std::size_t{1} << 27;
     const std::vector<pointsample::PosedMesh> spread = pointsample::spread_poses(character, clips, poses_to_cover);

@@ -11,13 +11,13 @@ namespace reference {
 
 // Everything a renderer needs of one character, and the reference's own idea of it.
 struct Model {
-    motion::Character character;
+    model::Character character;
     std::vector<int> clips;
     pointsample::PointModel points;
     motion::PoseTable poses;
     Figure figure;
 
-    Model(motion::Character from, std::vector<int> played, std::size_t point_count);
+    Model(model::Character from, std::vector<int> played, std::size_t point_count);
     Model(const Model&) = delete;
     Model& operator=(const Model&) = delete;
 

@@ -24,18 +24,18 @@ glm::dmat4 world_matrix(const tests::reference::Figure& posed, std::int32_t node
 
 }  // namespace
 
-Surface surface_at(const motion::Character& character, int clip, double seconds) {
+Surface surface_at(const model::Character& character, int clip, double seconds) {
     using Posed = tests::reference::Figure;
     const Posed posed =
         clip < 0 ? Posed(character) : Posed(character, character.clips[static_cast<std::size_t>(clip)], seconds);
-    const motion::Mesh& mesh = character.mesh;
+    const model::Mesh& mesh = character.mesh;
     Surface surface;
     for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
         surface.positions.emplace_back(mesh.positions[v]);
         surface.normals.emplace_back(mesh.normals[v]);
     }
     for (std::size_t m = 0; m < mesh.morphs.size(); ++m) {
-        const motion::MorphTarget& morph = mesh.morphs[m];
+        const model::MorphTarget& morph = mesh.morphs[m];
         const double weight = posed.morph_weights[m];
         for (std::size_t i = 0; i < morph.position_offsets.size(); ++i)
             surface.positions[morph.first_vertex + i] += weight * glm::dvec3(morph.position_offsets[i]);
@@ -43,7 +43,7 @@ Surface surface_at(const motion::Character& character, int clip, double seconds)
             surface.normals[morph.first_vertex + i] += weight * glm::dvec3(morph.normal_offsets[i]);
     }
     std::vector<glm::dmat4> bones;
-    for (const motion::PaletteEntry& entry : character.skeleton.palette)
+    for (const model::PaletteEntry& entry : character.skeleton.palette)
         bones.push_back(world_matrix(posed, entry.node) * glm::dmat4(entry.inverse_bind));
     for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
         glm::dmat4 blend(0);
@@ -55,7 +55,7 @@ Surface surface_at(const motion::Character& character, int clip, double seconds)
     return surface;
 }
 
-double area_of(const motion::Mesh& mesh, const Surface& surface) {
+double area_of(const model::Mesh& mesh, const Surface& surface) {
     double area = 0;
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         const glm::dvec3 a = surface.positions[mesh.indices[i]], b = surface.positions[mesh.indices[i + 1]],

@@ -5,7 +5,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "motion/character.h"
+#include "model/character.h"
 
 namespace reference {
 
@@ -15,9 +15,9 @@ struct Surface {
 };
 
 // `clip` indexes character.clips; -1 is the rest pose. Before the first key and after the last, `seconds` is theirs.
-Surface surface_at(const motion::Character& character, int clip, double seconds);
+Surface surface_at(const model::Character& character, int clip, double seconds);
 
 // [units^2] of all triangles.
-double area_of(const motion::Mesh& mesh, const Surface& surface);
+double area_of(const model::Mesh& mesh, const Surface& surface);
 
 }  // namespace reference

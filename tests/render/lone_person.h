@@ -11,10 +11,10 @@ namespace tests {
 
 // A tall box, `half_width` to each side and 1.8 m tall, that goes up at `rise` [m/s] for half of its only clip and down
 // for the other half. Its surface is cut into `cells` x `cells` squares a side.
-inline motion::Character make_lift(float half_width, float rise, double seconds, int cells) {
-    motion::Character lift;
+inline model::Character make_lift(float half_width, float rise, double seconds, int cells) {
+    model::Character lift;
     lift.name = "lift";
-    motion::Mesh& mesh = lift.mesh;
+    model::Mesh& mesh = lift.mesh;
     const glm::vec3 half(half_width, 0.9f, half_width), center(0, 0.9f, 0);
     for (int face = 0; face < 6; ++face) {
         glm::vec3 normal(0), right(0);
@@ -30,8 +30,8 @@ inline motion::Character make_lift(float half_width, float rise, double seconds,
                 mesh.normals.push_back(normal);
                 mesh.uvs.emplace_back(0);
                 mesh.colors.emplace_back(200, 200, 200, 255);
-                mesh.tints.push_back(motion::Tint::none);
-                mesh.texture_ids.push_back(motion::no_texture);
+                mesh.tints.push_back(model::Tint::none);
+                mesh.texture_ids.push_back(model::no_texture);
                 mesh.joints.emplace_back(0);
                 mesh.weights.emplace_back(1, 0, 0, 0);
             }
@@ -44,7 +44,7 @@ inline motion::Character make_lift(float half_width, float rise, double seconds,
     }
     lift.skeleton.nodes.resize(1);
     lift.skeleton.palette.emplace_back();
-    motion::Channel rising{0, motion::Path::translation, motion::Interpolation::linear, {}, {}};
+    model::Channel rising{0, model::Path::translation, model::Interpolation::linear, {}, {}};
     const auto end = static_cast<float>(seconds);
     rising.times = {0, end / 2, end};
     rising.values = {0, 0, 0, 0, rise * end / 2, 0, 0, 0, 0};
@@ -53,13 +53,13 @@ inline motion::Character make_lift(float half_width, float rise, double seconds,
 }
 
 struct LonePeople {
-    motion::Character character;
+    model::Character character;
     std::vector<scene::CastMember> cast;
     std::vector<motion::PoseTable> poses;
     scene::Crowd crowd;
 
     // Everybody of `of`, at `places` [m], facing +z; one block each.
-    LonePeople(motion::Character of, std::span<const glm::vec3> places, std::size_t point_count = 0)
+    LonePeople(model::Character of, std::span<const glm::vec3> places, std::size_t point_count = 0)
         : character(std::move(of)) {
         std::vector<motion::SurfacePoint> surface;
         for (std::size_t i = 0; i < point_count; ++i)

@@ -196,8 +196,8 @@ TEST_F(Picture, ResizedTargetHasItsNewSize) {
 
 // A look has five bits for its layer, and one number says that there is none.
 TEST_F(Picture, HasNoMoreTexturesThanALookCanName) {
-    const motion::Texture white{1, 1, {glm::u8vec4(255)}};
-    std::vector<motion::Texture> textures(31, white);
+    const model::Texture white{1, 1, {glm::u8vec4(255)}};
+    std::vector<model::Texture> textures(31, white);
     EXPECT_NO_THROW(render::make_texture_array(textures));
     textures.push_back(white);
     EXPECT_THROW(render::make_texture_array(textures), std::runtime_error);

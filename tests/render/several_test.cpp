@@ -20,14 +20,14 @@ constexpr int rows = 60;
 constexpr float row_pitch = 3.0f;  // [m]
 
 // The same character from a file whose units are `per_metre` to a metre.
-motion::Character in_units(motion::Character character, float per_metre) {
+model::Character in_units(model::Character character, float per_metre) {
     for (glm::vec3& position : character.mesh.positions) position *= per_metre;
     for (float& value : character.clips[0].channels[0].values) value *= per_metre;
     return character;
 }
 
 // Somebody every few metres, `aside` of the others; all columns reach equally far.
-tests::LonePeople column(motion::Character character, float aside, std::size_t point_count, float gait_speed) {
+tests::LonePeople column(model::Character character, float aside, std::size_t point_count, float gait_speed) {
     std::vector<glm::vec3> places;
     for (int i = 0; i < rows; ++i) places.emplace_back(aside, 0, -4.0f - row_pitch * static_cast<float>(i));
     tests::LonePeople people(std::move(character), places, point_count);

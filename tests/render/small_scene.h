@@ -16,7 +16,7 @@
 namespace tests {
 
 struct SmallScene {
-    motion::Character person = scene::make_person();
+    model::Character person = scene::make_person();
     scene::StadiumPlan plan;
     pointsample::PointModel points;
     std::vector<scene::CastMember> cast;

@@ -9,21 +9,21 @@ namespace {
 
 using scene::Role;
 
-motion::Character with_clips(std::initializer_list<const char*> names) {
-    motion::Character character;
+model::Character with_clips(std::initializer_list<const char*> names) {
+    model::Character character;
     for (const char* name : names) character.clips.push_back({name, 1.0, {}});
     return character;
 }
 
 // The name of the clip that a role plays while calm.
-std::string calm_clip(const motion::Character& character, Role role) {
+std::string calm_clip(const model::Character& character, Role role) {
     const scene::Casting casting = scene::cast(character);
     const std::uint8_t baked = casting.member.acts[static_cast<int>(role)].calm.at(0);
     return character.clips.at(casting.clips.at(baked)).name;
 }
 
 TEST(Cast, PersonSitsInTheStandsAndStandsElsewhere) {
-    const motion::Character person = scene::make_person();
+    const model::Character person = scene::make_person();
     EXPECT_TRUE(scene::cast(person).member.sits);
     EXPECT_EQ(calm_clip(person, Role::spectator), "sit");
     EXPECT_EQ(calm_clip(person, Role::standing), "stand");
@@ -32,7 +32,7 @@ TEST(Cast, PersonSitsInTheStandsAndStandsElsewhere) {
 }
 
 TEST(Cast, MexicanWaveIsArmsUp) {
-    const motion::Character person = scene::make_person();
+    const model::Character person = scene::make_person();
     const scene::Casting casting = scene::cast(person);
     const auto& excited = casting.member.acts[static_cast<int>(Role::spectator)].excited;
     EXPECT_EQ(excited.size(), 3u);
@@ -50,7 +50,7 @@ TEST(Cast, FindsClipsInAnyCaseAndWithPrefixes) {
 }
 
 // The names of the clips that spectators play while excited, in order.
-std::vector<std::string> excited_clips(const motion::Character& character) {
+std::vector<std::string> excited_clips(const model::Character& character) {
     const scene::Casting casting = scene::cast(character);
     std::vector<std::string> names;
     for (const std::uint8_t baked : casting.member.acts[static_cast<int>(Role::spectator)].excited)
@@ -90,7 +90,7 @@ TEST(Cast, PlaysTheShortestNameThatFits) {
 }
 
 TEST(Cast, BakesFirstWhatStandsUprightSinceHeightsAreMeasuredInIt) {
-    for (const motion::Character& character :
+    for (const model::Character& character :
          {scene::make_person(), with_clips({"sit", "cheer", "run", "walk", "stand"}), with_clips({"Run", "Walk"})}) {
         const scene::Casting casting = scene::cast(character);
         EXPECT_EQ(casting.member.acts[static_cast<int>(Role::standing)].calm.at(0), 0);
@@ -98,7 +98,7 @@ TEST(Cast, BakesFirstWhatStandsUprightSinceHeightsAreMeasuredInIt) {
 }
 
 TEST(Cast, HasItsCharactersNameAndThePersonsSpeeds) {
-    motion::Character character = with_clips({"walk"});
+    model::Character character = with_clips({"walk"});
     character.name = "fox";
     const scene::CastMember member = scene::cast(character).member;
     EXPECT_EQ(member.name, "fox");

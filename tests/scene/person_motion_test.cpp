@@ -11,7 +11,7 @@
 namespace {
 
 using namespace tests;
-using motion::Clip;
+using model::Clip;
 
 constexpr float degree = std::numbers::pi_v<float> / 180;
 constexpr double look_every = 1.0 / 60.0;  // [s]
@@ -119,7 +119,7 @@ TEST(PersonMoves, KneesAndElbowsPointWherePeoplesDo) {
 TEST(PersonMoves, NothingButTheWavingArmAndTheFidgetingAreOneSided) {
     constexpr float tolerance = 1e-4f;  // [m]
     const auto mirrored = [&](const Body& body, float most) {
-        for (const motion::Node& node : person().skeleton.nodes) {
+        for (const model::Node& node : person().skeleton.nodes) {
             if (!node.name.ends_with("_l")) continue;
             const glm::vec3 left = body.at(node.name), right = body.at(node.name.substr(0, node.name.size() - 1) + "r");
             ASSERT_LT(glm::distance(left, glm::vec3(-right.x, right.y, right.z)), most) << node.name;
@@ -301,7 +301,7 @@ TEST(PersonGaits, TheTwoHalvesMirrorEachOtherAllAlong) {
         const Clip& clip = clip_named(gait.name);
         watch(clip, [&](const Body& first, double t) {
             const Body second(clip, t + clip.duration / 2);
-            for (const motion::Node& node : person().skeleton.nodes) {
+            for (const model::Node& node : person().skeleton.nodes) {
                 std::string other = node.name;
                 if (other.ends_with("_l"))
                     other.back() = 'r';

@@ -13,8 +13,8 @@
 namespace {
 
 using namespace tests;
-using motion::Mesh;
-using motion::Tint;
+using model::Mesh;
+using model::Tint;
 
 const Mesh& mesh() {
     return person().mesh;
@@ -183,7 +183,7 @@ TEST(PersonLooks, BothSidesAreClothedShadedAndMovedAlike) {
 }
 
 TEST(PersonLooks, TheLeftIsAtPlusX) {
-    for (const motion::Node& node : person().skeleton.nodes) {
+    for (const model::Node& node : person().skeleton.nodes) {
         const float x = joints_at(clip_named("stand"), 0)[node_named(node.name)].x;
         if (node.name.ends_with("_l")) {
             EXPECT_GT(x, 0.02f) << node.name;
@@ -300,7 +300,7 @@ constexpr double look_every = 1.0 / 10.0;  // [s]
 TEST(PersonSkin, HoldsTogetherWhereTintsMeet) {
     constexpr float gap = 1e-5f;  // [m] rounding
     const std::vector<std::uint32_t> weld = welded(mesh());
-    for (const motion::Clip& clip : person().clips) {
+    for (const model::Clip& clip : person().clips) {
         for (double t = 0; t < clip.duration; t += look_every) {
             const auto positions = posed(clip, t);
             std::map<std::uint32_t, glm::vec3> first;
@@ -315,7 +315,7 @@ TEST(PersonSkin, HoldsTogetherWhereTintsMeet) {
 TEST(PersonSkin, IsNotTornInAnyPose) {
     constexpr float longest = 4.0f;      // times an edge's length at rest: between the legs of who sits
     constexpr float short_edge = 0.02f;  // [m] whose stretching nobody sees
-    for (const motion::Clip& clip : person().clips) {
+    for (const model::Clip& clip : person().clips) {
         for (double t = 0; t < clip.duration; t += look_every) {
             const auto positions = posed(clip, t);
             for (std::size_t i = 0; i < mesh().indices.size(); ++i) {
@@ -342,7 +342,7 @@ TEST(PersonSkin, OfTheForearmIsNotWrungByTheHand) {
     }();
     for (const char* side : {"_l", "_r"}) {
         const int elbow = node_named(std::string("forearm") + side), wrist = node_named(std::string("hand") + side);
-        for (const motion::Clip& clip : person().clips) {
+        for (const model::Clip& clip : person().clips) {
             for (double t = 0; t < clip.duration; t += look_every) {
                 const auto positions = posed(clip, t), joints = joints_at(clip, t);
                 for (const std::size_t v : vertices_of(std::string("forearm") + side)) {
@@ -360,7 +360,7 @@ TEST(PersonSkin, OfTheForearmIsNotWrungByTheHand) {
 
 TEST(PersonSkin, KeepsItsVolume) {
     const double rest = volume(mesh().positions);
-    for (const motion::Clip& clip : person().clips)
+    for (const model::Clip& clip : person().clips)
         for (double t = 0; t < clip.duration; t += look_every)
             ASSERT_NEAR(volume(posed(clip, t)) / rest, 1.0, 0.08) << clip.name << " at " << t;
 }

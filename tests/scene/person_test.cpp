@@ -21,10 +21,10 @@ namespace {
 
 using namespace tests;
 
-using motion::Character;
-using motion::Clip;
-using motion::Mesh;
-using motion::Tint;
+using model::Character;
+using model::Clip;
+using model::Mesh;
+using model::Tint;
 
 // One representative a triangle: triangles with a welded vertex in common are one part.
 std::vector<std::uint32_t> parts(const Mesh& mesh) {
@@ -173,18 +173,18 @@ TEST(Person, HasItsClips) {
 
 TEST(Person, ChannelsSpanTheirClip) {
     for (const Clip& clip : person().clips)
-        for (const motion::Channel& channel : clip.channels) {
+        for (const model::Channel& channel : clip.channels) {
             ASSERT_FALSE(channel.times.empty());
             EXPECT_EQ(channel.times.front(), 0.0f) << clip.name;
             EXPECT_EQ(channel.times.back(), static_cast<float>(clip.duration)) << clip.name;
             EXPECT_TRUE(std::is_sorted(channel.times.begin(), channel.times.end())) << clip.name;
-            EXPECT_EQ(channel.values.size(), channel.times.size() * (channel.path == motion::Path::rotation ? 4 : 3));
+            EXPECT_EQ(channel.values.size(), channel.times.size() * (channel.path == model::Path::rotation ? 4 : 3));
         }
 }
 
 TEST(Person, LoopsCloseBitByBit) {
     for (const Clip& clip : person().clips)
-        for (const motion::Channel& channel : clip.channels) {
+        for (const model::Channel& channel : clip.channels) {
             const std::size_t width = channel.values.size() / channel.times.size();
             EXPECT_TRUE(
                 std::equal(channel.values.begin(), channel.values.begin() + width, channel.values.end() - width))
@@ -196,8 +196,8 @@ TEST(Person, RotationsAreUnitAndNeverJump) {
     constexpr float unit_tolerance = 1e-6f;   // float rounding
     constexpr float smallest_cosine = 0.94f;  // 40 degrees a key: a slip of the kinematics would turn by 90 or more
     for (const Clip& clip : person().clips)
-        for (const motion::Channel& channel : clip.channels) {
-            if (channel.path != motion::Path::rotation) continue;
+        for (const model::Channel& channel : clip.channels) {
+            if (channel.path != model::Path::rotation) continue;
             const auto* q = reinterpret_cast<const glm::vec4*>(channel.values.data());
             for (std::size_t key = 0; key < channel.times.size(); ++key)
                 EXPECT_NEAR(glm::length(q[key]), 1.0f, unit_tolerance);

@@ -16,15 +16,15 @@
 
 namespace tests {
 
-inline const motion::Character& person() {
-    static const motion::Character character = scene::make_person();
+inline const model::Character& person() {
+    static const model::Character character = scene::make_person();
     return character;
 }
 
-inline const motion::Clip& clip_named(const std::string& name) {
+inline const model::Clip& clip_named(const std::string& name) {
     const auto& clips = person().clips;
     const auto found =
-        std::find_if(clips.begin(), clips.end(), [&](const motion::Clip& clip) { return clip.name == name; });
+        std::find_if(clips.begin(), clips.end(), [&](const model::Clip& clip) { return clip.name == name; });
     if (found == clips.end()) throw std::runtime_error("the person has no clip " + name);
     return *found;
 }
@@ -39,7 +39,7 @@ inline int node_named(const std::string& name) {
 inline const std::array<std::string, 4> seated_clips{"sit", "clap", "cheer", "wave"};
 
 // One id a vertex: equal positions, bit by bit, are one.
-inline std::vector<std::uint32_t> welded(const motion::Mesh& mesh) {
+inline std::vector<std::uint32_t> welded(const model::Mesh& mesh) {
     std::map<std::array<float, 3>, std::uint32_t> ids;
     std::vector<std::uint32_t> result;
     for (const glm::vec3& p : mesh.positions)
@@ -47,12 +47,12 @@ inline std::vector<std::uint32_t> welded(const motion::Mesh& mesh) {
     return result;
 }
 
-inline glm::vec3 face_cross(const motion::Mesh& mesh, std::size_t first) {
+inline glm::vec3 face_cross(const model::Mesh& mesh, std::size_t first) {
     const glm::vec3 a = mesh.positions[mesh.indices[first]];
     return glm::cross(mesh.positions[mesh.indices[first + 1]] - a, mesh.positions[mesh.indices[first + 2]] - a);
 }
 
-inline std::vector<glm::vec3> posed(const motion::Clip& clip, double time) {
+inline std::vector<glm::vec3> posed(const model::Clip& clip, double time) {
     motion::Pose pose;
     std::vector<glm::vec3> positions, normals;
     motion::evaluate(person(), clip, time, pose);
@@ -60,7 +60,7 @@ inline std::vector<glm::vec3> posed(const motion::Clip& clip, double time) {
     return positions;
 }
 
-inline std::vector<glm::vec3> joints_at(const motion::Clip& clip, double time) {
+inline std::vector<glm::vec3> joints_at(const model::Clip& clip, double time) {
     motion::Pose pose;
     motion::evaluate(person(), clip, time, pose);
     std::vector<glm::vec3> result;
@@ -69,7 +69,7 @@ inline std::vector<glm::vec3> joints_at(const motion::Clip& clip, double time) {
 }
 
 inline std::vector<std::size_t> vertices_of(const std::string& joint) {
-    const motion::Mesh& mesh = person().mesh;
+    const model::Mesh& mesh = person().mesh;
     const int node = node_named(joint);
     std::vector<std::size_t> result;
     for (std::size_t v = 0; v < mesh.vertex_count(); ++v)
@@ -79,7 +79,7 @@ inline std::vector<std::size_t> vertices_of(const std::string& joint) {
 
 inline constexpr double fine_step = 1.0 / 240.0;  // [s] four times a table's rate
 
-inline void for_every_instant(const motion::Clip& clip, const std::function<void(double)>& look) {
+inline void for_every_instant(const model::Clip& clip, const std::function<void(double)>& look) {
     const auto steps = static_cast<int>(std::lround(clip.duration / fine_step));
     for (int i = 0; i < steps; ++i) look(i * fine_step);
 }

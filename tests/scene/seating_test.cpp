@@ -66,7 +66,7 @@ TEST(Sightlines, ClearTheHeadInFrontByNineCentimetresAndNoMoreThanStepsAskFor) {
 
 TEST(Sightlines, AreDrawnFromTheEyesOfTheBuiltInPerson) {
     constexpr float tolerance = 0.05f;  // [m]
-    const motion::Character person = scene::make_person();
+    const model::Character person = scene::make_person();
     motion::Pose pose;
     std::vector<glm::vec3> positions, normals;
     const auto sit =
@@ -76,7 +76,7 @@ TEST(Sightlines, AreDrawnFromTheEyesOfTheBuiltInPerson) {
     motion::skin(person.mesh, pose, positions, normals);
     float sum = 0, count = 0;
     for (std::size_t v = 0; v < positions.size(); ++v) {
-        if (person.mesh.tints[v] != motion::Tint::none || person.mesh.positions[v].y < 1.5f) continue;
+        if (person.mesh.tints[v] != model::Tint::none || person.mesh.positions[v].y < 1.5f) continue;
         sum += positions[v].y;
         ++count;
     }

@@ -1,0 +1,76 @@
+// Files from outside, opened with care and read in blocks: memory is a block and the longest line or record. Internal
+// to the loaders.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace model {
+
+// Throws std::runtime_error "found `found`; expected `expected`". The loaders put the file's name before it.
+[[noreturn]] void fail(const std::string& found, const std::string& expected);
+
+// What may stand in a message: printable, one line, cut where it is long, in quotes.
+std::string in_quotes(std::string_view text);
+
+[[noreturn]] void throw_with_name(const std::filesystem::path& path);  // with_name's, within its handler
+
+// Runs load() and puts the file's name before what it throws, as one line; out of memory too.
+template <typename Load>
+auto with_name(const std::filesystem::path& path, Load load) {
+    try {
+        return load();
+    } catch (...) {
+        throw_with_name(path);
+    }
+}
+
+// A regular file: a pipe would block, and /dev/zero has no end.
+class InputFile {
+public:
+    static constexpr std::size_t longest_line = std::size_t{1} << 24;  // [bytes]
+
+    // Throws if there is no such file; `expected` says what should be there.
+    InputFile(const std::filesystem::path& path, const std::string& expected);
+    ~InputFile();
+    InputFile(const InputFile&) = delete;
+    InputFile& operator=(const InputFile&) = delete;
+
+    int descriptor() const { return descriptor_; }
+    std::uint64_t left() const { return unread_ + (end_ - begin_); }  // bytes not yet handed out
+
+    // The next line without its line end (LF or CR LF); valid until the next call. False: there is none.
+    bool line(std::string_view& out);
+    std::uint64_t line_number() const { return line_number_; }  // of the last line, from 1; 0 before the first
+
+    // The next bytes, valid until the next call; throws where there are fewer. size: at most 64 KiB.
+    const unsigned char* take(std::size_t size) {
+        if (end_ - begin_ < size) require(size);
+        const std::size_t at = begin_;
+        begin_ += size;
+        return reinterpret_cast<const unsigned char*>(bytes_.get()) + at;
+    }
+    void skip(std::uint64_t size);
+
+private:
+    bool fill();
+    void require(std::size_t size);
+
+    int descriptor_ = -1;
+    std::uint64_t unread_ = 0;  // of the size that the file had
+    std::size_t capacity_;
+    std::unique_ptr<char[]> bytes_;
+    std::size_t begin_ = 0, end_ = 0;  // of what is read and not yet handed out
+    std::uint64_t line_number_ = 0;
+};
+
+// All of it; throws as InputFile does, and if it is larger than `most_bytes`.
+std::vector<unsigned char> read_file(const std::filesystem::path& path, const std::string& expected,
+                                     std::uint64_t most_bytes);
+
+}  // namespace model

@@ -1,0 +1,97 @@
+// A parsed glTF file and checked access to its numbers. Internal to the loader: gltf*.cpp.
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "model/character.h"
+#include "model/input_file.h"
+
+namespace model {
+
+// How much a file may unfold to, so that a small file cannot claim all memory by naming one accessor a thousand times:
+// vertices, indices, keys and the like, a million and one for every byte of its buffers.
+class Budget {
+public:
+    explicit Budget(std::size_t buffer_bytes) : left_(buffer_bytes + (std::size_t{1} << 20)) {}
+    void spend(std::size_t elements) {
+        if (elements > left_) fail("more repeated or implied data than a file of this size should hold", "less");
+        left_ -= elements;
+    }
+
+private:
+    std::size_t left_;
+};
+
+struct GltfFile {
+    tinygltf::Model model;
+    Budget budget{0};
+
+    // The encoded bytes of an image; throws if they are missing.
+    std::span<const unsigned char> image_bytes(int image) const;
+};
+
+// Reads and checks; supports KHR_texture_transform, KHR_materials_unlit and KHR_mesh_quantization.
+GltfFile open_gltf(const std::filesystem::path& path);
+
+// Element access to one accessor, every bound checked when it is made. Sparse values are merged in.
+class Accessor {
+public:
+    // Throws unless `accessor` names one whose elements have `width` components of a type that glTF 2.0 allows.
+    Accessor(GltfFile& file, int accessor, int width);
+    Accessor(Accessor&&) = default;  // data_ may point into merged_, whose elements a move leaves in place
+    Accessor(const Accessor&) = delete;
+
+    std::size_t count() const { return count_; }
+    float number(std::size_t element, int component) const;         // normalised integers as [-1, 1] or [0, 1]
+    float finite(std::size_t element, int component) const;         // the same; throws on NaN and infinity
+    std::uint32_t index(std::size_t element, int component) const;  // throws unless it holds whole numbers
+
+private:
+    const unsigned char* at(std::size_t element, int component) const;
+
+    const unsigned char* data_ = nullptr;
+    std::size_t count_ = 0, stride_ = 0, component_size_ = 0;
+    int component_type_ = 0, index_of_accessor_ = 0;
+    bool normalized_ = false;
+    std::vector<unsigned char> merged_;  // the elements of an accessor that is sparse or has no buffer view
+};
+
+// How many components an element of `accessor` has; throws if there is no such accessor.
+int accessor_width(const GltfFile& file, int accessor);
+
+// The file's nodes as a skeleton: parents first.
+struct NodeOrder {
+    std::vector<std::int32_t> order;        // the file's index of each of the skeleton's nodes
+    std::vector<std::int32_t> in_skeleton;  // the skeleton's index of each of the file's nodes
+    std::vector<bool> in_scene;             // by the file's index: part of the default scene
+};
+NodeOrder build_nodes(const GltfFile& file, Skeleton& skeleton);
+
+// All meshes of the scene, and the palette that their vertices index.
+void build_mesh(GltfFile& file, const NodeOrder& nodes, Character& character);
+
+void build_clips(GltfFile& file, const NodeOrder& nodes, std::vector<Clip>& clips);
+
+// Base colour textures, each image decoded once.
+class TextureSet {
+public:
+    TextureSet(const GltfFile& file, std::vector<Texture>& textures);
+
+    // The id of the file's texture `texture`, or no_texture if it names none.
+    std::uint8_t id_of(int texture);
+
+private:
+    const GltfFile& file_;
+    std::vector<Texture>& textures_;
+    std::vector<std::uint8_t> id_of_image_;
+    std::size_t texels_ = 0;
+};
+
+}  // namespace model

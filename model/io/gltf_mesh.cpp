@@ -1,0 +1,376 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "model/io/gltf_file.h"
+#include "model/io/normals.h"
+#include "model/srgb.h"
+#include "motion/pose.h"
+
+namespace model {
+namespace {
+
+using Indices = std::vector<std::uint32_t>;
+
+// Where a primitive's vertices hang: a skin's joints, or one node.
+struct Attachment {
+    std::vector<std::uint16_t> joints;  // palette entry of each of the skin's joints; a rigid part has just its own
+    bool skinned = false;
+};
+
+// The palette, each (node, inverse bind) once: parts of one character tend to repeat one skin.
+class PaletteBuilder {
+public:
+    explicit PaletteBuilder(Skeleton& skeleton) : skeleton_(skeleton) {}
+
+    std::uint16_t entry(std::int32_t node, const glm::mat4& inverse_bind) {
+        std::array<float, 16> key;
+        for (int i = 0; i < 16; ++i) key[static_cast<std::size_t>(i)] = inverse_bind[i / 4][i % 4];
+        const auto [at, added] =
+            entries_.try_emplace({node, key}, static_cast<std::uint16_t>(skeleton_.palette.size()));
+        if (!added) return at->second;
+        if (skeleton_.palette.size() > std::numeric_limits<std::uint16_t>::max())
+            fail("more than 65536 joints and rigid parts", "fewer");
+        skeleton_.palette.push_back({node, inverse_bind});
+        return at->second;
+    }
+
+private:
+    Skeleton& skeleton_;
+    std::map<std::pair<std::int32_t, std::array<float, 16>>, std::uint16_t> entries_;
+};
+
+// What a material says about looks; the default is glTF's.
+struct Look {
+    glm::vec4 factor{1.0f};  // linear
+    std::uint8_t texture = no_texture;
+    int uv_set = 0;
+    glm::mat3 uv_transform{1.0f};  // KHR_texture_transform
+    bool double_sided = false;
+};
+
+float number_at(const tinygltf::Value& object, const char* name, std::size_t index, float fallback) {
+    if (!object.Has(name)) return fallback;
+    const tinygltf::Value& array = object.Get(name);
+    if (!array.IsArray() || index >= array.ArrayLen()) return fallback;
+    const tinygltf::Value& value = array.Get(static_cast<int>(index));
+    const float number = value.IsNumber() ? static_cast<float>(value.GetNumberAsDouble()) : fallback;
+    return std::isfinite(number) ? number : fallback;
+}
+
+void apply_texture_transform(const tinygltf::ExtensionMap& extensions, Look& look) {
+    const auto found = extensions.find("KHR_texture_transform");
+    if (found == extensions.end() || !found->second.IsObject()) return;
+    const tinygltf::Value& value = found->second;
+    const glm::vec2 offset(number_at(value, "offset", 0, 0), number_at(value, "offset", 1, 0));
+    const glm::vec2 scale(number_at(value, "scale", 0, 1), number_at(value, "scale", 1, 1));
+    float angle = 0;
+    if (value.Has("rotation") && value.Get("rotation").IsNumber())
+        angle = static_cast<float>(value.Get("rotation").GetNumberAsDouble());
+    if (!std::isfinite(angle)) angle = 0;
+    if (value.Has("texCoord") && value.Get("texCoord").IsInt()) look.uv_set = value.Get("texCoord").GetNumberAsInt();
+    const float c = std::cos(angle), s = std::sin(angle);
+    look.uv_transform = glm::mat3(glm::vec3(c * scale.x, -s * scale.x, 0), glm::vec3(s * scale.y, c * scale.y, 0),
+                                  glm::vec3(offset, 1));
+}
+
+Look look_of(const GltfFile& file, int material, TextureSet& textures) {
+    Look look;
+    if (material < 0) return look;
+    if (static_cast<std::size_t>(material) >= file.model.materials.size())
+        fail("material " + std::to_string(material), "one of " + std::to_string(file.model.materials.size()));
+    const tinygltf::Material& found = file.model.materials[static_cast<std::size_t>(material)];
+    const tinygltf::PbrMetallicRoughness& pbr = found.pbrMetallicRoughness;
+    for (std::size_t i = 0; i < 4 && pbr.baseColorFactor.size() == 4; ++i)
+        look.factor[static_cast<int>(i)] = static_cast<float>(pbr.baseColorFactor[i]);
+    look.double_sided = found.doubleSided;
+    look.texture = textures.id_of(pbr.baseColorTexture.index);
+    look.uv_set = pbr.baseColorTexture.texCoord;
+    apply_texture_transform(pbr.baseColorTexture.extensions, look);
+    return look;
+}
+
+int attribute_of(const std::map<std::string, int>& attributes, const std::string& name) {
+    const auto found = attributes.find(name);
+    return found == attributes.end() ? -1 : found->second;
+}
+
+std::optional<Accessor> optional_accessor(GltfFile& file, const std::map<std::string, int>& attributes,
+                                          const std::string& name, int width, std::size_t vertex_count) {
+    const int index = attribute_of(attributes, name);
+    if (index < 0) return std::nullopt;
+    Accessor accessor(file, index, width);
+    if (accessor.count() < vertex_count)
+        fail(std::to_string(accessor.count()) + " elements of " + name,
+             "as many as of POSITION, " + std::to_string(vertex_count));
+    return accessor;
+}
+
+// The file's vertices of a primitive's triangles, three a triangle; lines and points have none.
+Indices read_triangles(GltfFile& file, const tinygltf::Primitive& primitive, std::size_t vertex_count) {
+    if (primitive.mode < TINYGLTF_MODE_POINTS || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN)
+        fail("primitive mode " + std::to_string(primitive.mode), "0 to 6");
+    if (primitive.mode < TINYGLTF_MODE_TRIANGLES) return {};
+    Indices corners;
+    if (primitive.indices >= 0) {
+        const Accessor accessor(file, primitive.indices, 1);
+        file.budget.spend(accessor.count());
+        corners.resize(accessor.count());
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            corners[i] = accessor.index(i, 0);
+            if (corners[i] >= vertex_count)
+                fail("vertex index " + std::to_string(corners[i]), "below " + std::to_string(vertex_count));
+        }
+    } else {
+        file.budget.spend(vertex_count);
+        corners.resize(vertex_count);
+        for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = static_cast<std::uint32_t>(i);
+    }
+    if (primitive.mode == TINYGLTF_MODE_TRIANGLES) {
+        corners.resize(corners.size() - corners.size() % 3);
+        return corners;
+    }
+    Indices triangles;
+    for (std::size_t i = 0; i + 2 < corners.size(); ++i) {
+        const bool fan = primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN;
+        const bool odd = !fan && i % 2 == 1;  // every other triangle of a strip winds backwards
+        const std::uint32_t first = fan ? corners[0] : corners[i];
+        triangles.insert(triangles.end(), {first, corners[i + (odd ? 2 : 1)], corners[i + (odd ? 1 : 2)]});
+    }
+    return triangles;
+}
+
+// Keeps the vertices that triangles use: `triangles` becomes indices into the returned list.
+Indices compact(GltfFile& file, Indices& triangles) {
+    if (triangles.empty()) return {};
+    const auto [low, high] = std::minmax_element(triangles.begin(), triangles.end());
+    const std::uint32_t first = *low;
+    constexpr std::uint32_t unused = std::numeric_limits<std::uint32_t>::max();
+    file.budget.spend(*high - first);  // parts that share one accessor each use a stretch of it
+    Indices place(std::size_t{*high - first} + 1, unused), used;
+    for (const std::uint32_t corner : triangles) place[corner - first] = 0;
+    for (std::size_t i = 0; i < place.size(); ++i) {
+        if (place[i] == unused) continue;
+        place[i] = static_cast<std::uint32_t>(used.size());
+        used.push_back(first + static_cast<std::uint32_t>(i));
+    }
+    for (std::uint32_t& corner : triangles) corner = place[corner - first];
+    return used;
+}
+
+glm::vec3 vector_at(const Accessor& accessor, std::size_t element) {
+    return {accessor.finite(element, 0), accessor.finite(element, 1), accessor.finite(element, 2)};
+}
+
+// Adds one primitive, hung on one attachment, to the mesh.
+class PrimitiveWriter {
+public:
+    PrimitiveWriter(GltfFile& file, const tinygltf::Primitive& primitive, Mesh& mesh)
+        : file_(file), primitive_(primitive), mesh_(mesh), first_(mesh.positions.size()) {}
+
+    void write(const Look& look, const Attachment& attachment) {
+        const int position = attribute_of(primitive_.attributes, "POSITION");
+        if (position < 0) return;
+        const Accessor positions(file_, position, 3);
+        vertex_count_ = positions.count();
+        triangles_ = read_triangles(file_, primitive_, vertex_count_);
+        used_ = compact(file_, triangles_);
+        if (used_.empty()) return;
+        file_.budget.spend(used_.size());
+        if (first_ + used_.size() > std::numeric_limits<std::uint32_t>::max()) fail("2^32 vertices", "fewer");
+        for (const std::uint32_t vertex : used_) mesh_.positions.push_back(vector_at(positions, vertex));
+        for (const std::uint32_t corner : triangles_)
+            mesh_.indices.push_back(static_cast<std::uint32_t>(first_) + corner);
+        write_normals();
+        write_looks(look);
+        write_influences(attachment);
+    }
+
+    void write_morphs(std::int32_t node, const std::vector<double>& rest_weights) {
+        if (used_.empty()) return;
+        for (std::size_t slot = 0; slot < primitive_.targets.size(); ++slot) {
+            MorphTarget morph;
+            morph.node = node;
+            morph.slot = static_cast<std::int32_t>(slot);
+            morph.rest_weight = slot < rest_weights.size() ? static_cast<float>(rest_weights[slot]) : 0.0f;
+            if (!std::isfinite(morph.rest_weight)) fail("a morph weight that is not finite", "numbers");
+            morph.first_vertex = static_cast<std::uint32_t>(first_);
+            morph.position_offsets = offsets(primitive_.targets[slot], "POSITION");
+            morph.normal_offsets = offsets(primitive_.targets[slot], "NORMAL");
+            if (!morph.position_offsets.empty()) mesh_.morphs.push_back(std::move(morph));
+        }
+    }
+
+private:
+    std::vector<glm::vec3> offsets(const std::map<std::string, int>& target, const char* name) {
+        const auto accessor = optional_accessor(file_, target, name, 3, vertex_count_);
+        std::vector<glm::vec3> out;
+        if (!accessor) return out;
+        file_.budget.spend(used_.size());
+        for (const std::uint32_t vertex : used_) out.push_back(vector_at(*accessor, vertex));
+        return out;
+    }
+
+    // Missing or degenerate normals are the surface's.
+    void write_normals() {
+        const auto given = optional_accessor(file_, primitive_.attributes, "NORMAL", 3, vertex_count_);
+        for (const std::uint32_t vertex : used_) {
+            mesh_.normals.push_back(
+                given ? glm::vec3(given->number(vertex, 0), given->number(vertex, 1), given->number(vertex, 2))
+                      : glm::vec3(0.0f));
+        }
+        complete_normals(std::span(mesh_.positions).subspan(first_), triangles_, {},
+                         std::span(mesh_.normals).subspan(first_));
+    }
+
+    void write_looks(const Look& look) {
+        const std::string uv_name = "TEXCOORD_" + std::to_string(look.uv_set);
+        const auto uvs = optional_accessor(file_, primitive_.attributes, uv_name, 2, vertex_count_);
+        const int color = attribute_of(primitive_.attributes, "COLOR_0");
+        const int channels = color < 0 ? 0 : accessor_width(file_, color);
+        if (color >= 0 && channels != 3 && channels != 4)
+            fail(std::to_string(channels) + " components of COLOR_0", "3 or 4");
+        const auto colors = optional_accessor(file_, primitive_.attributes, "COLOR_0", channels, vertex_count_);
+        for (const std::uint32_t vertex : used_) {
+            glm::vec3 uv(0, 0, 1);
+            if (uvs) uv = look.uv_transform * glm::vec3(uvs->number(vertex, 0), uvs->number(vertex, 1), 1);
+            mesh_.uvs.push_back(std::isfinite(uv.x + uv.y) ? glm::vec2(uv) : glm::vec2(0));
+            glm::vec4 factor = look.factor;
+            for (int i = 0; i < channels; ++i) factor[i] *= colors->number(vertex, i);
+            mesh_.colors.emplace_back(srgb_of_linear(factor.r), srgb_of_linear(factor.g), srgb_of_linear(factor.b),
+                                      unit_byte(factor.a));
+        }
+        mesh_.tints.resize(mesh_.positions.size(), Tint::none);
+        mesh_.texture_ids.resize(mesh_.positions.size(), uvs ? look.texture : no_texture);
+        mesh_.double_sided |= look.double_sided;
+    }
+
+    void write_influences(const Attachment& attachment) {
+        std::vector<std::pair<Accessor, Accessor>> sets;
+        for (const char* set : {"0", "1"}) {
+            if (!attachment.skinned) break;
+            auto joints =
+                optional_accessor(file_, primitive_.attributes, std::string("JOINTS_") + set, 4, vertex_count_);
+            auto weights =
+                optional_accessor(file_, primitive_.attributes, std::string("WEIGHTS_") + set, 4, vertex_count_);
+            if (joints && weights) sets.emplace_back(std::move(*joints), std::move(*weights));
+        }
+        for (const std::uint32_t vertex : used_) add_influences(attachment, sets, vertex);
+    }
+
+    // The four heaviest of up to eight; none at all hangs the vertex on the first joint.
+    void add_influences(const Attachment& attachment, const std::vector<std::pair<Accessor, Accessor>>& sets,
+                        std::size_t vertex) {
+        std::array<std::pair<float, std::uint16_t>, 8> found{};
+        std::size_t count = 0;
+        for (const auto& [joints, weights] : sets) {
+            for (int i = 0; i < 4; ++i) {
+                const float weight = weights.finite(vertex, i);
+                const std::uint32_t joint = joints.index(vertex, i);
+                if (!(weight > 0.0f)) continue;
+                if (joint >= attachment.joints.size())
+                    fail("joint " + std::to_string(joint), "below " + std::to_string(attachment.joints.size()));
+                found[count++] = {weight, attachment.joints[joint]};
+            }
+        }
+        if (count == 0) found[count++] = {1.0f, attachment.joints.front()};
+        std::stable_sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(count),
+                         [](const auto& a, const auto& b) { return a.first > b.first; });
+        float sum = 0;
+        for (std::size_t i = 0; i < std::min<std::size_t>(count, 4); ++i) sum += found[i].first;
+        glm::u16vec4 joint(0);
+        glm::vec4 weight(0.0f);
+        for (std::size_t i = 0; i < std::min<std::size_t>(count, 4); ++i) {
+            joint[static_cast<int>(i)] = found[i].second;
+            weight[static_cast<int>(i)] = found[i].first / sum;
+        }
+        mesh_.joints.push_back(joint);
+        mesh_.weights.push_back(weight);
+    }
+
+    GltfFile& file_;
+    const tinygltf::Primitive& primitive_;
+    Mesh& mesh_;
+    std::size_t first_, vertex_count_ = 0;
+    Indices triangles_;  // into used_
+    Indices used_;       // the file's vertices that triangles use
+};
+
+Attachment attach_to_skin(GltfFile& file, const tinygltf::Skin& skin, const NodeOrder& nodes, PaletteBuilder& palette) {
+    Attachment attachment{{}, true};
+    std::optional<Accessor> binds;
+    if (skin.inverseBindMatrices >= 0) {
+        binds.emplace(file, skin.inverseBindMatrices, 16);
+        if (binds->count() < skin.joints.size())
+            fail(std::to_string(binds->count()) + " inverse bind matrices", std::to_string(skin.joints.size()));
+    }
+    file.budget.spend(skin.joints.size());
+    for (std::size_t i = 0; i < skin.joints.size(); ++i) {
+        const int joint = skin.joints[i];
+        if (joint < 0 || static_cast<std::size_t>(joint) >= nodes.in_skeleton.size())
+            fail("joint at node " + std::to_string(joint), "one that exists");
+        glm::mat4 bind(1.0f);
+        for (int k = 0; k < 16 && binds; ++k) bind[k / 4][k % 4] = binds->finite(i, k);
+        attachment.joints.push_back(palette.entry(nodes.in_skeleton[static_cast<std::size_t>(joint)], bind));
+    }
+    if (attachment.joints.empty()) fail("a skin without joints", "at least one");
+    return attachment;
+}
+
+// A mirror in the rest pose turns triangles inside out: wind those the other way.
+void unmirror(Character& character) {
+    motion::Pose pose;
+    motion::evaluate_rest(character, pose);
+    std::vector<float> determinants;
+    for (const glm::mat4& matrix : pose.palette) determinants.push_back(glm::determinant(glm::mat3(matrix)));
+    Mesh& mesh = character.mesh;
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        float handedness = 0;
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            const std::uint32_t vertex = mesh.indices[i + corner];
+            for (int k = 0; k < 4; ++k) handedness += mesh.weights[vertex][k] * determinants[mesh.joints[vertex][k]];
+        }
+        if (handedness < 0.0f) std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
+    }
+}
+
+bool has_influences(const tinygltf::Primitive& primitive) {
+    return primitive.attributes.contains("JOINTS_0") && primitive.attributes.contains("WEIGHTS_0");
+}
+
+}  // namespace
+
+void build_mesh(GltfFile& file, const NodeOrder& nodes, Character& character) {
+    TextureSet textures(file, character.mesh.textures);
+    PaletteBuilder palette(character.skeleton);
+    std::map<int, Attachment> skins;
+    for (const std::int32_t index : nodes.order) {
+        const tinygltf::Node& node = file.model.nodes[static_cast<std::size_t>(index)];
+        if (node.mesh < 0 || !nodes.in_scene[static_cast<std::size_t>(index)]) continue;
+        if (static_cast<std::size_t>(node.mesh) >= file.model.meshes.size())
+            fail("mesh " + std::to_string(node.mesh), "one of " + std::to_string(file.model.meshes.size()));
+        const tinygltf::Mesh& mesh = file.model.meshes[static_cast<std::size_t>(node.mesh)];
+        if (node.skin >= 0 && static_cast<std::size_t>(node.skin) >= file.model.skins.size())
+            fail("skin " + std::to_string(node.skin), "one of " + std::to_string(file.model.skins.size()));
+        const std::int32_t own = nodes.in_skeleton[static_cast<std::size_t>(index)];
+        for (const tinygltf::Primitive& primitive : mesh.primitives) {
+            file.budget.spend(1);
+            const bool skinned = node.skin >= 0 && has_influences(primitive);
+            if (skinned && !skins.contains(node.skin)) {
+                const tinygltf::Skin& skin = file.model.skins[static_cast<std::size_t>(node.skin)];
+                skins[node.skin] = attach_to_skin(file, skin, nodes, palette);
+            }
+            PrimitiveWriter writer(file, primitive, character.mesh);
+            const Look look = look_of(file, primitive.material, textures);
+            writer.write(look, skinned ? skins[node.skin] : Attachment{{palette.entry(own, glm::mat4(1.0f))}, false});
+            writer.write_morphs(own, node.weights.empty() ? mesh.weights : node.weights);
+        }
+    }
+    unmirror(character);
+}
+
+}  // namespace model

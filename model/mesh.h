@@ -1,0 +1,54 @@
+// The surface of a character as plain data: triangles, their looks, and how they follow the skeleton.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+namespace model {
+
+// What of a person's own palette multiplies a vertex' colour. A closed set: the shaders switch on it.
+enum class Tint : std::uint8_t { none, skin, hair, shirt, trousers };
+inline constexpr int tint_count = 5;
+
+// An 8-bit image, rows from the top, four bytes a texel: sRGB red, green, blue and alpha. Wraps around.
+struct Texture {
+    int width = 0, height = 0;  // [texels] > 0
+    std::vector<glm::u8vec4> texels;
+};
+
+// Morph target: adds weight * offset to a run of vertices. `node` and `slot` name the animated weight.
+struct MorphTarget {
+    std::int32_t node = 0;  // the node of the skeleton that carries the weights
+    std::int32_t slot = 0;  // which of the node's weights
+    float rest_weight = 0;
+    std::uint32_t first_vertex = 0;
+    std::vector<glm::vec3> position_offsets;  // for vertices first_vertex ...
+    std::vector<glm::vec3> normal_offsets;    // empty or as long as position_offsets
+};
+
+inline constexpr std::uint8_t no_texture = 255;
+
+// Structure of arrays, one element a vertex unless it says otherwise. All arrays are always filled.
+struct Mesh {
+    std::vector<glm::vec3> positions;  // [file's units], in bind space
+    std::vector<glm::vec3> normals;    // unit, outward
+    std::vector<glm::vec2> uvs;        // top-left origin, wraps
+    std::vector<glm::u8vec4> colors;   // base colour factor x vertex colour, sRGB-encoded
+    std::vector<Tint> tints;
+    std::vector<std::uint8_t> texture_ids;  // into textures, or no_texture
+    std::vector<glm::u16vec4> joints;       // into Skeleton::palette; unused ones have weight 0
+    std::vector<glm::vec4> weights;         // >= 0, sum 1
+    std::vector<std::uint32_t> indices;     // three a triangle, counter-clockwise seen from outside
+    std::vector<Texture> textures;
+    std::vector<MorphTarget> morphs;
+    bool double_sided = false;  // some surface is open and is to be seen from both sides
+
+    std::size_t vertex_count() const { return positions.size(); }
+    std::size_t triangle_count() const { return indices.size() / 3; }
+};
+
+}  // namespace model
