@@ -69,6 +69,36 @@ TEST_F(Scripts, SetupInstallsWhatIsMissingAndSaysWhenThatFails) {
     EXPECT_NE(outcome.out.find("apt-get failed"), std::string::npos) << outcome.out;
 }
 
+// What is only tested with is neither installed nor built for a picture.
+class ScriptsWithoutGoogleTest : public Scripts {
+protected:
+    void SetUp() override {
+        Scripts::SetUp();
+        stand_in("tools/sudo", "exec \"$@\"");
+        stand_in("tools/dpkg-query", "case \"$*\" in *libgtest-dev*|*xvfb*) ;; *) echo install ok installed;; esac");
+        stand_in("tools/apt-get", "exit 0");
+        stand_in("tools/apt-cache", "exit 100");
+        stand_in("tools/pkg-config", "exit 1");
+        stand_in("tools/cmake", "echo \"cmake $*\" >>" + (directory_ / "built"));
+    }
+};
+
+TEST_F(ScriptsWithoutGoogleTest, SetupBuildsTheStadiumAlone) {
+    const tests::Outcome outcome = call("scripts/setup");
+    EXPECT_EQ(outcome.code, 0) << outcome.out;
+    EXPECT_EQ(outcome.out.find("Installing"), std::string::npos) << outcome.out;
+    EXPECT_EQ(tests::read_file(directory_ / "built"),
+              "cmake --preset release\ncmake --build --preset release --target stadium\n");
+}
+
+TEST_F(ScriptsWithoutGoogleTest, SetupForTestsInstallsItAndBuildsEverything) {
+    const tests::Outcome outcome = call("scripts/setup", "tests");
+    EXPECT_EQ(outcome.code, 0) << outcome.out;
+    EXPECT_NE(outcome.out.find("Installing: libgtest-dev xvfb\n"), std::string::npos) << outcome.out;
+    EXPECT_EQ(tests::read_file(directory_ / "built"),
+              "cmake --preset release -D GRANDSTAND_TESTS=ON\ncmake --build --preset release --target all\n");
+}
+
 // Everything is there but chromium-driver and cage.
 class ScriptsWithoutTestPrograms : public Scripts {
 protected:
