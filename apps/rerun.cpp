@@ -15,14 +15,8 @@ Rerun rerun_open(const sim::Contestant& law, const std::vector<sfsm::TraceRow>& 
     Rerun rerun{law.name, {}, {}};
     rerun.rows.reserve(recorded.size());
     for (std::size_t i = 0; i < recorded.size(); ++i) {
-        sfsm::TraceRow& row = rerun.rows.emplace_back();
-        row.frame = recorded[i].frame;
-        row.target_ms = recorded[i].target_ms;
-        row.frame_ms = recorded[i].frame_ms;
-        row.cpu_ms = recorded[i].cpu_ms;
-        row.gpu_ms = recorded[i].gpu_ms;
-        row.range = recorded[i].range;
-        row.work = recorded[i].work;
+        sfsm::TraceRow& row = rerun.rows.emplace_back(recorded[i]);
+        row.motion = row.shapes = {};
         row.decision = replayed[i].decision;
         row.predicted_ms = replayed[i].predicted_ms;
     }
@@ -56,7 +50,7 @@ void add_forecast(sfsm::TraceRow& row, const sim::Plant& plant) {
     const sfsm::Forecast* forecast = plant.forecast(row.frame);
     if (!forecast) return;
     row.motion.assign(forecast->motion.begin(), forecast->motion.end());
-    row.splats.assign(forecast->splats.begin(), forecast->splats.end());
+    row.shapes.assign(forecast->shapes.begin(), forecast->shapes.end());
 }
 
 }  // namespace apps

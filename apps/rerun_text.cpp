@@ -64,12 +64,14 @@ void add_metrics(Json& json, const sim::Metrics& metrics) {
     json["overshoot_pct"] = number(metrics.overshoot_pct);
 }
 
-Json prices_json(const sim::Prices& prices) {
-    return {{"frame", number(prices.frame)},
-            {"person", number(prices.person)},
-            {"triangle", number(prices.triangle)},
-            {"point", number(prices.point)},
-            {"motion_update", number(prices.update)}};
+Json prices_json(const sfsm::Prices& prices) {
+    Json json{{"frame", number(prices.frame)}};
+    for (const sfsm::WorkEntry& entry : sfsm::work_table) {
+        std::string key(entry.name);
+        std::replace(key.begin(), key.end(), ' ', '_');
+        json[key] = number(prices[entry.kind]);
+    }
+    return json;
 }
 
 std::string percent(double share) {
@@ -129,20 +131,15 @@ Json rerun_json(const Rerun& rerun) {
 }
 
 void write_fit(std::ostream& out, const sim::CostFit& fit) {
-    struct Line {
-        const char* name;
-        double ms, sigma;
-    };
-    const Line prices[] = {{"frame", fit.prices.frame, fit.sigma.frame},
-                           {"person", fit.prices.person, fit.sigma.person},
-                           {"triangle", fit.prices.triangle, fit.sigma.triangle},
-                           {"point", fit.prices.point, fit.sigma.point},
-                           {"motion update", fit.prices.update, fit.sigma.update}};
     constexpr double us_per_ms = 1000;
-    out << "cost model of " << fit.frames << " frames, median " << std::setprecision(4) << fit.median_ms << " ms\n";
-    for (const auto& [name, ms, sigma] : prices)
+    const auto write_price = [&](std::string_view name, double ms, double sigma) {
         out << "  " << std::left << std::setw(14) << name << std::right << std::setw(10) << us_per_ms * ms << " us +- "
             << us_per_ms * sigma << '\n';
+    };
+    out << "cost model of " << fit.frames << " frames, median " << std::setprecision(4) << fit.median_ms << " ms\n";
+    write_price("frame", fit.prices.frame, fit.sigma.frame);
+    for (const sfsm::WorkEntry& entry : sfsm::work_table)
+        write_price(entry.name, fit.prices[entry.kind], fit.sigma[entry.kind]);
     out << "R2 " << fit.r2 << "; percentiles of time / model - 1";
     for (std::size_t i = 0; i < fit.percents.size(); ++i)
         out << (i == 0 ? ": " : ", ") << fit.percents[i] << " %: " << percent(fit.residual[i]);

@@ -115,7 +115,7 @@ sim::Contestant law_of(const sfsm::Trace& trace, bool may_look_ahead) {
 
 Rerun recorded_run(const Session& session) {
     Rerun rerun{"recorded", session.recording.trace.rows, {}};
-    for (sfsm::TraceRow& row : rerun.rows) row.motion = {}, row.splats = {};
+    for (sfsm::TraceRow& row : rerun.rows) row.motion = row.shapes = {};
     return rerun;
 }
 
@@ -153,7 +153,7 @@ void write_trace(std::ostream& out, const Session& session, const Rerun& rerun) 
             add_forecast(row, *session.course->scenario.plant);
         } else {
             row.motion = recorded[i].motion;
-            row.splats = recorded[i].splats;
+            row.shapes = recorded[i].shapes;
         }
         sfsm::write_trace_row(out, row);
     }

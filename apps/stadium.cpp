@@ -155,7 +155,7 @@ private:
         if (!options_.state) row.predicted_ms = controller_->status().predicted_ms;
         if (!options_.trace.empty()) {
             row.motion.assign(survey.forecast.motion.begin(), survey.forecast.motion.end());
-            row.splats.assign(survey.forecast.splats.begin(), survey.forecast.splats.end());
+            row.shapes.assign(survey.forecast.shapes.begin(), survey.forecast.shapes.end());
         }
         const render::Selection& selection = selector_.select(row.decision, last_tick_);
         timer_.submit();
@@ -242,9 +242,9 @@ private:
         const sfsm::TraceRow& row = rows_.back();
         const sfsm::Decision& decision = row.decision;
         char text[200];
-        int length =
-            std::snprintf(text, sizeof text, "Grandstand  %.1f / %.1f ms  %lld people  state %d", last_ms_,
-                          row.target_ms, static_cast<long long>(row.work.people), static_cast<int>(decision.state));
+        int length = std::snprintf(text, sizeof text, "Grandstand  %.1f / %.1f ms  %lld people  state %d", last_ms_,
+                                   row.target_ms, static_cast<long long>(row.work[sfsm::WorkKind::person]),
+                                   static_cast<int>(decision.state));
         if (decision.state != sfsm::State::original)
             length += std::snprintf(text + length, sizeof text - length, "  D %.0f m", decision.motion_distance);
         if (decision.state == sfsm::State::points)

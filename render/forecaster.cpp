@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "motion/schedule.h"
@@ -58,38 +59,38 @@ void Forecaster::add(std::size_t kind, scene::Role role, float depth, float poin
 
 sfsm::Forecast Forecaster::finish(float theta) {
     price_motion(theta);
-    price_splats();
-    return {people_, motion_, splats_};
+    price_shapes();
+    return {people_, motion_, shapes_};
 }
 
 // Who moves every f-th frame is due in a frame with a chance of 1 / f, and any of 0 to f - 1 frames old.
 void Forecaster::price_motion(float theta) {
     const double everybody = std::max<double>(1.0, static_cast<double>(people_));
     for (int step = 0; step < motion_steps; ++step) {
-        sfsm::MotionStep& out = motion_[step];
+        sfsm::Step& out = motion_[step];
         out = {};
-        if (step > 0) out.distance = motion_shares[step - 1] * range_;
+        out.setting = step == 0 ? std::numeric_limits<double>::infinity() : motion_shares[step - 1] * range_;
         double updates = 0, loss = 0;
         for (int bin = 0; bin < depth_bins; ++bin) {
             const float depth = (static_cast<float>(bin) + 0.5f) / depth_bins * range_;
-            const int period = step == 0 ? 1 : motion::update_period(depth, static_cast<float>(out.distance), theta);
+            const int period = step == 0 ? 1 : motion::update_period(depth, static_cast<float>(out.setting), theta);
             updates += static_cast<double>(depths_[bin]) / period;
             for (std::size_t kind = 0; kind < kinds_.size(); ++kind)
                 for (std::size_t role = 0; role < scene::role_count; ++role)
                     loss += pixels_[kind][role][bin] * static_cast<double>(kinds_[kind].staleness[role][period]);
         }
-        out.updates = std::llround(updates);
+        out.work[sfsm::WorkKind::motion_update] = std::llround(updates);
         out.loss_px = loss / everybody;
     }
 }
 
 // An outline of splats is off by up to half a splat, and no splat outgrows its person's silhouette.
-void Forecaster::price_splats() {
+void Forecaster::price_shapes() {
     const double everybody = std::max<double>(1.0, static_cast<double>(people_));
     for (int step = 0; step < splat_steps; ++step) {
-        sfsm::SplatStep& out = splats_[step];
+        sfsm::Step& out = shapes_[step];
         out = {};
-        out.size = step == 0 ? 0.0 : sfsm::max_splat_size * std::exp2((step - (splat_steps - 1)) / steps_per_octave);
+        out.setting = step == 0 ? 0.0 : sfsm::max_splat_size * std::exp2((step - (splat_steps - 1)) / steps_per_octave);
         // Points go with 1 / S^2, which shifts bins: S = 32 px is ten octaves of points down.
         const int shift = step == 0 ? 0 : (step - (splat_steps - 1)) * bins_per_splat_step + 10 * bins_per_octave;
         double loss = 0;
@@ -99,11 +100,11 @@ void Forecaster::price_splats() {
                 if (people == 0) continue;
                 const std::uint32_t drawn = step == 0 ? 0 : drawn_[kind][std::clamp(bin - shift, 0, point_bins - 1)];
                 if (drawn == 0) {
-                    out.triangles += people * kinds_[kind].triangles;
+                    out.work[sfsm::WorkKind::triangle] += people * kinds_[kind].triangles;
                 } else {
                     const double silhouette = 0.5 * std::sqrt(bin_points(bin) / kinds_[kind].density);
-                    out.points += people * drawn;
-                    loss += static_cast<double>(people) * 0.5 * std::min(out.size, silhouette);
+                    out.work[sfsm::WorkKind::point] += people * drawn;
+                    loss += static_cast<double>(people) * 0.5 * std::min(out.setting, silhouette);
                 }
             }
         }

@@ -41,7 +41,7 @@ private:
     static constexpr int splat_steps = 28;  // triangles, then quarter octaves from 0.35 px to 32 px
 
     void price_motion(float theta);
-    void price_splats();
+    void price_shapes();
     // Points of people in a bin under S: looked up, since it depends on the kind and their ratio alone.
     static int point_bin(float points);
     static float bin_points(int bin);
@@ -55,8 +55,8 @@ private:
     std::vector<std::array<Pixels, scene::role_count>> pixels_;  // per kind
     std::vector<std::array<std::int32_t, point_bins>> points_;   // per kind: people by points needed at S = 1
     std::vector<std::array<std::uint32_t, point_bins>> drawn_;   // per kind: points drawn for points needed
-    std::array<sfsm::MotionStep, motion_steps> motion_;
-    std::array<sfsm::SplatStep, splat_steps> splats_;
+    std::array<sfsm::Step, motion_steps> motion_;
+    std::array<sfsm::Step, splat_steps> shapes_;
 };
 
 }  // namespace render

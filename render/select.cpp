@@ -173,12 +173,12 @@ void Selector::gather() {
     selection_.work = {};
     for_each_visible([&](std::size_t person) {
         ++bucket_begin_[candidates_[person].bucket + 1];
-        selection_.work.motion_updates += candidates_[person].moved;
+        selection_.work[sfsm::WorkKind::motion_update] += candidates_[person].moved;
     });
     for (std::size_t bucket = 1; bucket < bucket_begin_.size(); ++bucket)
         bucket_begin_[bucket] += bucket_begin_[bucket - 1];
 
-    selection_.work.people = bucket_begin_.back();
+    selection_.work[sfsm::WorkKind::person] = bucket_begin_.back();
     selection_.batches.clear();
     for (std::uint32_t character = 0; character < figures_.size(); ++character) batch(character);
 
@@ -199,9 +199,9 @@ void Selector::batch(std::uint32_t character) {
             if (count == 0) continue;
             selection_.batches.push_back({character, pose, points, bucket_begin_[bucket], count});
             if (points == 0)
-                selection_.work.triangles += std::int64_t{count} * figure.triangle_count;
+                selection_.work[sfsm::WorkKind::triangle] += std::int64_t{count} * figure.triangle_count;
             else
-                selection_.work.points += std::int64_t{count} * points;
+                selection_.work[sfsm::WorkKind::point] += std::int64_t{count} * points;
         }
     }
 }

@@ -40,8 +40,9 @@ struct SelectOptions {
     // half its points face away: 1.2 puts more than two facing points on every square that is to be covered, and leaves
     // about one in fifty open. Fewer leave more holes, more make people fatter.
     float density = 1.2f;
-    // A person becomes points only where that is the cheaper way: one point costs a CPU rasteriser about two triangles.
-    float triangles_per_point = 2.0f;
+    // A person becomes points only where that is the cheaper way: what a point is believed to cost, in triangles.
+    float triangles_per_point = static_cast<float>(sfsm::entry_of(sfsm::WorkKind::point).prior.pieces /
+                                                   sfsm::entry_of(sfsm::WorkKind::triangle).prior.pieces);
 };
 
 struct Selection {

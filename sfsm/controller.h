@@ -2,7 +2,6 @@
 // the same calls give the same decisions to the bit.
 #pragma once
 
-#include <array>
 #include <limits>
 #include <memory>
 #include <span>
@@ -10,12 +9,9 @@
 
 #include "sfsm/decision.h"
 #include "sfsm/forecast.h"
+#include "sfsm/prices.h"
 
 namespace sfsm {
-
-// The order of Status::price_ms.
-enum class Price : int { frame, person, triangle, point, motion_update };
-inline constexpr int price_count = 5;
 
 // All that a controller believes; read by the overlay, the trace, the report and the tests. NaN is what a law doesn't
 // know, or does not know yet.
@@ -27,11 +23,11 @@ struct Status {
     const char* reason = "start";  // why the decision is what it is: static string
 
     static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-    double predicted_ms = unknown;  // of the next frame
-    double uncertainty = unknown;   // 1 sigma of that, relative, without the noise of a single frame
-    double noise = unknown;         // 1 sigma of a single frame, relative
-    double gain = unknown;          // what every price is multiplied by, now
-    std::array<double, price_count> price_ms{unknown, unknown, unknown, unknown, unknown};  // a piece, gain included
+    double predicted_ms = unknown;            // of the next frame
+    double uncertainty = unknown;             // 1 sigma of that, relative, without the noise of a single frame
+    double noise = unknown;                   // 1 sigma of a single frame, relative
+    double gain = unknown;                    // what every price is multiplied by, now
+    Prices price_ms = equal_prices(unknown);  // gain included
 };
 
 // What is known of a frame before it is drawn.

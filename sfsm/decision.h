@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "sfsm/work.h"
+
 namespace sfsm {
 
 // Lyu et al. 2018, section 3.3. Lower to higher: less picture, less time.
@@ -23,16 +25,6 @@ struct Decision {
     bool operator==(const Decision&) const = default;
 };
 inline constexpr double max_splat_size = 32;  // [px]
-
-// Counts of each kind of work that has a price. What a frame cost is prices times counts.
-struct Work {
-    std::int64_t people = 0;     // drawn
-    std::int64_t triangles = 0;  // of people
-    std::int64_t points = 0;
-    std::int64_t motion_updates = 0;  // people whose pose changed
-
-    bool operator==(const Work&) const = default;
-};
 
 // A measured time with the decision and the work it belongs to, however late it arrives.
 struct FrameSample {

@@ -1,39 +1,34 @@
-// What each candidate decision would cost in the frame that is about to be drawn, counted by the renderer before it is
-// drawn. Motion and splats are priced apart, so two short lists stand for all their pairs.
+// What each candidate decision would draw and lose in the frame that is about to be drawn, counted by the renderer
+// before it is drawn. D changes only how people move and S only what they are drawn as, so two short lists stand for
+// all pairs of a D and an S.
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <span>
+
+#include "sfsm/work.h"
 
 namespace sfsm {
 
-// One distance D, and what it would make of the motion. Losses are means over the visible people.
-struct MotionStep {
-    double distance = std::numeric_limits<double>::infinity();  // D [m]
-    std::int64_t updates = 0;                                   // people that would move
-    double loss_px = 0;                                         // how far surfaces are from where they should be [px]
+// One candidate of a list.
+struct Step {
+    // In the list `motion`: D [m] > 0; the first may be infinite.
+    // In the list `shapes`: S [px]; 0 in the first, which is triangles.
+    double setting = 0;
+    Work work;           // of the list's own axis; the other counts are 0
+    double loss_px = 0;  // [px] how far surfaces (motion) or outlines (shapes) are off, mean over the visible people
 
-    bool operator==(const MotionStep&) const = default;
+    bool operator==(const Step&) const = default;
 };
 
-// One splat size S, and what it would make of the shapes.
-struct SplatStep {
-    double size = 0;             // S [px]; 0: triangles
-    std::int64_t triangles = 0;  // of people
-    std::int64_t points = 0;
-    double loss_px = 0;  // how far outlines are from where they should be [px]
-
-    bool operator==(const SplatStep&) const = default;
-};
-
-// The lists run from no loss (everybody moves; all triangles) to the most, and none of them is empty. Along each, work
-// never grows and loss never shrinks. Splat sizes are about a quarter of an octave apart: what lies between two steps
-// may be interpolated (logarithms of counts over the logarithm of size). Valid until the next frame's.
+// Neither list is empty. Each runs from no loss (everybody moves; all are triangles) to the most: along it work never
+// grows and loss never shrinks. Between two steps laws interpolate: D and its counts in a straight line, S and its
+// counts in a straight line of logarithms. So steps of S are about a quarter of an octave apart. Between triangles and
+// the smallest S there is nothing. Valid until the next frame's.
 struct Forecast {
     std::int64_t people = 0;  // visible
-    std::span<const MotionStep> motion;
-    std::span<const SplatStep> splats;
+    std::span<const Step> motion;
+    std::span<const Step> shapes;
 };
 
 }  // namespace sfsm

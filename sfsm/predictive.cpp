@@ -27,12 +27,20 @@ void PredictiveOptions::validate() const {
 
 namespace {
 
-// What is believed of a renderer nobody has measured: work in pieces that each take about as long as a triangle.
-constexpr double person_pieces = 50, point_pieces = 2, update_pieces = 300;
+// What is believed of a renderer nobody has measured; the kinds of work are work_table's.
 constexpr double first_piece_ms = 30e-6;  // until the first times are there: a slow machine's, since a second is long
 constexpr double first_slack = 1.5;       // over the least: the cheapest frame would teach too little of the others
 constexpr double frame_share = 0.05;      // of the first frame's pieces, for what is there in every frame
-constexpr PriceBelief work_belief{5, {1, 1, 0.6, 0.8, 2}, 0, {0, 0, 0.02, 0.05, 0}};
+constexpr PriceBelief work_belief = [] {
+    PriceBelief all;
+    all.terms = 1 + static_cast<int>(work_kinds);
+    all.spread[0] = 1;
+    for (std::size_t i = 0; i < work_kinds; ++i) {
+        all.spread[i + 1] = work_table[i].prior.spread;
+        all.least[i + 1] = work_table[i].prior.least;
+    }
+    return all;
+}();
 
 // And of the axis: time grows in even steps of detail, to 1 + 1 / 0.3 = 4.3 times that of the coarsest.
 constexpr int detail_steps = 8;
@@ -49,16 +57,6 @@ constexpr int longest_wait = 24;       // decisions until a probe's time is give
 constexpr double much_over = 1.03;  // t at which a rise has failed
 
 constexpr double out_of_reach_band = 0.05;  // over the aim, relative
-
-constexpr double most_count = 1e15;  // of any work
-
-double bounded(double count) {
-    return std::clamp(count, 0.0, most_count);
-}
-
-double counted(std::int64_t count) {
-    return bounded(static_cast<double>(count));
-}
 
 Amounts axis_amounts(double detail) {
     Amounts amounts;
@@ -82,15 +80,15 @@ void PredictiveLaw::observe(const FrameSample& sample) {
         return;
     }
     status_.last_ms = sample.ms;
-    const Work& work = sample.work;
-    if (work.people > 0 || work.triangles > 0 || work.points > 0 || work.motion_updates > 0) {
-        const double people = counted(work.people), triangles = counted(work.triangles);
-        const double points = counted(work.points), updates = counted(work.motion_updates);
+    if (std::ranges::any_of(sample.work.counts, [](std::int64_t count) { return count > 0; })) {
+        std::array<double, work_kinds> counts;
+        std::ranges::transform(sample.work.counts, counts.begin(), counted);
         if (frame_amount_ == 0) {
-            const Amounts all = amounts_of(people, triangles, points, updates);
-            frame_amount_ = frame_share * (all.of[1] + all.of[2] + all.of[3] + all.of[4]);
+            double pieces = 0;
+            for (const double amount : amounts_of(counts).of) pieces += amount;
+            frame_amount_ = frame_share * pieces;
         }
-        const Amounts amounts = amounts_of(people, triangles, points, updates);
+        const Amounts amounts = amounts_of(counts);
         if (work_.is_ready()) foresight_.observe(sample, amounts, work_);
         work_refresh_.observe(work_, amounts, sample.ms, target_ms_);
         if (sample.decision == probe_.decision) probe_.age = 0;
@@ -105,7 +103,7 @@ Decision PredictiveLaw::decide(const FrameRequest& request) {
         status_.target_ms = target_ms_ = request.target_ms;
     }
     if (is_usable(request.range)) range_ = request.range;
-    has_forecast_ = request.forecast && !request.forecast->motion.empty() && !request.forecast->splats.empty();
+    has_forecast_ = request.forecast && !request.forecast->motion.empty() && !request.forecast->shapes.empty();
     if (target_ms_ > 0 && range_ > 0) {
         if (has_forecast_) {
             decide_from(*request.forecast);
@@ -144,8 +142,9 @@ void PredictiveLaw::believe(const Prediction& prediction, const CostModel& model
 }
 
 void PredictiveLaw::believe_prices() {
-    const double pieces[price_count] = {frame_amount_, person_pieces, 1, point_pieces, update_pieces};
-    for (int i = 0; i < price_count; ++i) status_.price_ms[i] = work_.gain() * work_.price(i) * pieces[i];
+    status_.price_ms.frame = work_.gain() * work_.price(0) * frame_amount_;
+    for (std::size_t i = 0; i < work_kinds; ++i)
+        status_.price_ms.each[i] = work_.gain() * work_.price(static_cast<int>(i) + 1) * work_table[i].prior.pieces;
 }
 
 // The detail that takes `ms`, in [0, 1].
@@ -211,30 +210,23 @@ void PredictiveLaw::decide_on_axis() {
     status_.decision = decision;
 }
 
-Amounts PredictiveLaw::amounts_of(double people, double triangles, double points, double motion_updates) const {
+Amounts PredictiveLaw::amounts_of(const std::array<double, work_kinds>& counts) const {
     Amounts amounts;
-    amounts.terms = 5;
-    amounts.of = {frame_amount_, person_pieces * people, triangles, point_pieces * points,
-                  update_pieces * motion_updates};
+    amounts.terms = work_belief.terms;
+    amounts.of[0] = frame_amount_;
+    for (std::size_t i = 0; i < work_kinds; ++i) amounts.of[i + 1] = work_table[i].prior.pieces * counts[i];
     return amounts;
 }
 
-Amounts PredictiveLaw::amounts_of(const Forecast& forecast, const Plan& plan) const {
-    return amounts_of(counted(forecast.people), bounded(plan.triangles), bounded(plan.points),
-                      bounded(plan.motion_updates));
-}
-
-Prediction PredictiveLaw::predicted(const Forecast& forecast, const Plan& plan) const {
-    Prediction prediction = work_.predict(amounts_of(forecast, plan));
+Prediction PredictiveLaw::predicted(const Plan& plan) const {
+    Prediction prediction = work_.predict(amounts_of(plan.counts));
     prediction.log_ms += foresight_.bias();
     return prediction;
 }
 
-WorkPrices PredictiveLaw::prices(const Forecast& forecast) const {
+Prices PredictiveLaw::prices() const {
     const double drawn = std::exp(foresight_.bias());  // for each that is foreseen
-    const auto price = [&](Price kind) { return drawn * status_.price_ms[static_cast<std::size_t>(kind)]; };
-    return {price(Price::frame) + price(Price::person) * counted(forecast.people), price(Price::triangle),
-            price(Price::point), price(Price::motion_update)};
+    return drawn * status_.price_ms;
 }
 
 Decision PredictiveLaw::decision_of(const Plan& plan) const {
@@ -260,15 +252,15 @@ void PredictiveLaw::decide_from(const Forecast& forecast) {
     if (decision.state != State::original) decision.motion_distance = std::min(decision.motion_distance, range_);
     if (!work_.is_ready()) return;
     probe(forecast);
-    foresight_.foresee(decisions_, decision, amounts_of(forecast, plan_of(forecast, decision)));
+    foresight_.foresee(decisions_, decision, amounts_of(plan_of(forecast, decision).counts));
 }
 
 // The finest plan that would meet the aim even if it took `caution` sigmas longer. What is known little of is known
 // better nearby: between the cheapest plan and `best` there is one that can be trusted, and drawing it teaches more.
-Plan PredictiveLaw::surely_fitting(const Forecast& forecast, const WorkPrices& prices, const Plan& best,
-                                   double least_ms, double aim_ms) const {
+Plan PredictiveLaw::surely_fitting(const Forecast& forecast, const Prices& prices, const Plan& best, double least_ms,
+                                   double aim_ms) const {
     const auto longest_ms = [&](const Plan& plan) {
-        const Prediction prediction = predicted(forecast, plan);
+        const Prediction prediction = predicted(plan);
         return std::exp(prediction.log_ms + options_.caution * prediction.uncertainty);
     };
     if (least_ms >= aim_ms || longest_ms(best) <= aim_ms * (1 + options_.band)) return best;
@@ -290,20 +282,20 @@ Plan PredictiveLaw::surely_fitting(const Forecast& forecast, const WorkPrices& p
 
 // Nothing has been timed yet: better two coarse frames on a fast machine than two of a second each on a slow one.
 Plan PredictiveLaw::first_guess(const Forecast& forecast) const {
-    const WorkPrices guess{first_piece_ms * person_pieces * counted(forecast.people), first_piece_ms,
-                           first_piece_ms * point_pieces, first_piece_ms * update_pieces};
+    Prices guess;
+    for (std::size_t i = 0; i < work_kinds; ++i) guess.each[i] = first_piece_ms * work_table[i].prior.pieces;
     const double least_ms = plan_ms(cheapest_plan(forecast, range_), guess);
     return least_loss_plan(forecast, range_, guess, std::max(target_ms_, first_slack * least_ms));
 }
 
 void PredictiveLaw::choose(const Forecast& forecast) {
     believe_prices();
-    const WorkPrices prices = this->prices(forecast);
+    const Prices prices = this->prices();
     const double least_ms = plan_ms(cheapest_plan(forecast, range_), prices);
     const double aim_ms = aim(work_, least_ms, 0);
     const Plan now = plan_of(forecast, kept_);
     const Plan best = least_loss_plan(forecast, range_, prices, aim_ms);
-    const Prediction prediction = predicted(forecast, now);
+    const Prediction prediction = predicted(now);
     believe(prediction, work_);
     if (is_kept(prediction, aim_ms) && !(best.loss_px < now.loss_px * (1 - options_.better))) return;
     const Plan plan = surely_fitting(forecast, prices, best, least_ms, aim_ms);
@@ -312,11 +304,11 @@ void PredictiveLaw::choose(const Forecast& forecast) {
     kept_ = chosen;
     since_choice_ = 0;
     status_.reason = reason_to_move(prediction, aim_ms, least_ms);
-    believe(predicted(forecast, plan), work_);
+    believe(predicted(plan), work_);
 }
 
-bool PredictiveLaw::is_doubtful(const Forecast& forecast, const Plan& plan) const {
-    return predicted(forecast, plan).uncertainty > doubtful;
+bool PredictiveLaw::is_doubtful(const Plan& plan) const {
+    return predicted(plan).uncertainty > doubtful;
 }
 
 // One frame with half the motion, or with the finest points: what the way down would cost, before it is needed. A
@@ -329,22 +321,21 @@ void PredictiveLaw::probe(const Forecast& forecast) {
     const Plan now = plan_of(forecast, kept_);
     const Plan cheapest = cheapest_plan(forecast, range_);
     Plan plan = now;
-    if (probe_.motion < options_.probes &&
-        is_doubtful(forecast, plan_at(forecast, range_, cheapest.distance, now.size))) {
+    if (probe_.motion < options_.probes && is_doubtful(plan_at(forecast, range_, cheapest.distance, now.size))) {
         plan = slower_plan(forecast, range_, now, probe_share);
         probe_.motion += 1;
         status_.reason = "learning what motion costs";
     } else if (probe_.splats < options_.probes && now.size == 0 &&
-               is_doubtful(forecast, plan_at(forecast, range_, now.distance, cheapest.size))) {
+               is_doubtful(plan_at(forecast, range_, now.distance, cheapest.size))) {
         // The finest, then coarser ones: two sizes tell points from what every frame has.
-        const double size = forecast.splats.size() > 1 ? forecast.splats[1].size : 0;
+        const double size = forecast.shapes.size() > 1 ? forecast.shapes[1].setting : 0;
         plan = plan_at(forecast, range_, now.distance, probe_.splats == 0 ? size : coarser_probe * size);
         probe_.splats += 1;
         status_.reason = "learning what points cost";
     } else {
         return;
     }
-    believe(predicted(forecast, plan), work_);
+    believe(predicted(plan), work_);
     status_.decision = probe_.decision = decision_of(plan);
     probe_.age = 1;
 }

@@ -57,27 +57,26 @@ private:
     void decide_from(const Forecast& forecast);
     double detail_for(double ms) const;
     double drawn_detail(const Decision& decision) const;
-    Amounts amounts_of(double people, double triangles, double points, double motion_updates) const;
+    Amounts amounts_of(const std::array<double, work_kinds>& counts) const;
     Decision decision_of(const Plan& plan) const;
     Plan plan_of(const Forecast& forecast, const Decision& decision) const;
     void choose(const Forecast& forecast);
     void probe(const Forecast& forecast);
-    bool is_doubtful(const Forecast& forecast, const Plan& plan) const;
-    Amounts amounts_of(const Forecast& forecast, const Plan& plan) const;
-    Prediction predicted(const Forecast& forecast, const Plan& plan) const;
-    WorkPrices prices(const Forecast& forecast) const;
+    bool is_doubtful(const Plan& plan) const;
+    Prediction predicted(const Plan& plan) const;
+    Prices prices() const;
     bool is_kept(const Prediction& prediction, double aim_ms) const;
     double aim(const CostModel& model, double least_ms, double uncertainty) const;
     void believe(const Prediction& prediction, const CostModel& model);
     void believe_prices();
-    Plan surely_fitting(const Forecast& forecast, const WorkPrices& prices, const Plan& best, double least_ms,
+    Plan surely_fitting(const Forecast& forecast, const Prices& prices, const Plan& best, double least_ms,
                         double aim_ms) const;
     Plan first_guess(const Forecast& forecast) const;
     const char* reason_to_move(const Prediction& kept, double aim_ms, double least_ms) const;
 
     PredictiveOptions options_;
     Status status_;
-    CostModel work_;           // terms: frame, people, triangles, points, motion updates
+    CostModel work_;           // terms: frame, then the kinds of work
     CostModel axis_;           // terms: frame, steps of detail
     double frame_amount_ = 0;  // of work_'s first term; 0 until work has been seen
     double target_ms_ = 0, range_ = 0;

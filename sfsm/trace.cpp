@@ -182,18 +182,17 @@ std::int64_t whole(double count) {
 
 void append_steps(std::string& line, const TraceRow& row) {
     const char* blank = "";
-    for (const MotionStep& step : row.motion) {
-        append_number(line += blank, step.distance);
-        append_number(line += ':', step.updates);
+    for (const Step& step : row.motion) {
+        append_number(line += blank, step.setting);
+        append_number(line += ':', step.work[WorkKind::motion_update]);
         append_number(line += ':', step.loss_px);
         blank = " ";
     }
     line += ',';
     blank = "";
-    for (const SplatStep& step : row.splats) {
-        append_number(line += blank, step.size);
-        append_number(line += ':', step.triangles);
-        append_number(line += ':', step.points);
+    for (const Step& step : row.shapes) {
+        append_number(line += blank, step.setting);
+        for (const WorkKind kind : work_on<WorkAxis::shape>) append_number(line += ':', step.work[kind]);
         append_number(line += ':', step.loss_px);
         blank = " ";
     }
@@ -211,10 +210,10 @@ TraceRow parse_row(const Fields& fields) {
     row.range = fields.number(range);
     row.predicted_ms = fields.prediction();
     fields.steps<3>(fields.header.motion, motion_name, row.motion, [&](const std::array<double, 3>& v) {
-        row.motion.push_back({v[0], whole(v[1]), v[2]});
+        row.motion.push_back({v[0], Work{0, 0, 0, whole(v[1])}, v[2]});
     });
-    fields.steps<4>(fields.header.splats, splat_name, row.splats, [&](const std::array<double, 4>& v) {
-        row.splats.push_back({v[0], whole(v[1]), whole(v[2]), v[3]});
+    fields.steps<4>(fields.header.splats, splat_name, row.shapes, [&](const std::array<double, 4>& v) {
+        row.shapes.push_back({v[0], Work{0, whole(v[1]), whole(v[2])}, v[3]});
     });
     return row;
 }
@@ -233,7 +232,7 @@ void write_trace_row(std::ostream& out, const TraceRow& row) {
     append_number(line += ',', std::int64_t{static_cast<int>(row.decision.state)});
     append_number(line += ',', row.decision.motion_distance);
     append_number(line += ',', row.decision.splat_size);
-    for (const std::int64_t count : {row.work.people, row.work.triangles, row.work.points, row.work.motion_updates}) {
+    for (const std::int64_t count : row.work.counts) {
         append_number(line += ',', count);
     }
     append_number(line += ',', row.range);

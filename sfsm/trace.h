@@ -27,10 +27,9 @@ struct TraceRow {
     Work work;
 
     // The forecast given to the controller before this frame; both empty if there was none.
-    std::vector<MotionStep> motion;
-    std::vector<SplatStep> splats;
-    bool has_forecast() const { return !motion.empty() && !splats.empty(); }
-    Forecast forecast() const { return {work.people, motion, splats}; }  // as long as the row lives
+    std::vector<Step> motion, shapes;
+    bool has_forecast() const { return !motion.empty() && !shapes.empty(); }
+    Forecast forecast() const { return {work[WorkKind::person], motion, shapes}; }  // as long as the row lives
 };
 
 struct Trace {
@@ -46,8 +45,8 @@ struct Trace {
 void write_trace_header(std::ostream& out, const std::map<std::string, std::string>& settings);
 void write_trace_row(std::ostream& out, const TraceRow& row);
 
-// Columns are found by name, unknown ones are skipped. A last line without a line end is left out: of a number that is
-// cut short nothing tells. Throws std::runtime_error naming `name`, the line and what was expected there; the trace
+// Columns are found by name, unknown ones are skipped. A last line without a line end is left out: its last number may
+// have been cut short. Throws std::runtime_error naming `name`, the line and what was expected there; the trace
 // keeps `name`.
 Trace read_trace(std::istream& in, const std::string& name);
 Trace read_trace(LineReader& lines);  // from its first line on

@@ -13,18 +13,18 @@ namespace sfsm::simulate {
 namespace {
 
 constexpr std::size_t fewest_frames = 16;
-constexpr double far_off = 1000;     // times the median: not a frame of this renderer
-constexpr double most_count = 1e15;  // of any work
+constexpr double far_off = 1000;  // times the median: not a frame of this renderer
 
-// The belief: pieces of a person, a triangle, a point, an update, and what every frame has in shares of a mean frame.
-enum Kind : std::size_t { frame, person, triangle, point, update };
-constexpr Unknowns pieces_each{1, 50, 1, 2, 4};
-constexpr double frame_share = 0.05;
-constexpr double update_spread = 75;  // sigmas of the believed price: renderers that skin pay 300 pieces, ours none
+// Unknown 0 is the price of what every frame has; then comes one for each kind of work.
+constexpr std::size_t frame = 0;
+constexpr std::size_t unknown_of(WorkKind kind) {
+    return 1 + index_of(kind);
+}
+constexpr double frame_share = 0.05;  // of a mean frame's pieces, believed of what every frame has
 // 1 sigma of the believed price is the price. Where times have no noise at all, the belief decides only what is left
 // open: this small, it moves no digit of what they tell.
 constexpr double least_belief = 1e-10;
-constexpr double level_weight = 0.1;  // of what triangles and points take together: one is a better guess of the other
+constexpr double level_weight = 0.1;  // of what the kinds of shapes take together: one is a better guess of the others
 
 constexpr double huber = 1.345;             // sigmas; 95 % as good as least squares where all noise is normal
 constexpr double sigma_of_median = 1.4826;  // a normal sigma over the median of absolute values
@@ -39,10 +39,6 @@ struct Observation {
     Unknowns amounts{};  // at price 1 each takes what is believed of it, in medians of the times
     double time = 0;     // in the same
 };
-
-double counted(std::int64_t count) {
-    return std::clamp(static_cast<double>(count), 0.0, most_count);
-}
 
 template <class Value>
 double median(std::vector<Value> values) {
@@ -73,10 +69,9 @@ std::vector<Observation> observations_of(std::span<const TraceRow> rows) {
     std::vector<double> times;
     for (const TraceRow& row : rows) {
         if (!is_frame_time(row.frame_ms)) continue;
-        const Unknowns counts{0, counted(row.work.people), counted(row.work.triangles), counted(row.work.points),
-                              counted(row.work.motion_updates)};
         Observation& seen = all.emplace_back();
-        for (std::size_t i = 0; i < counts.size(); ++i) seen.amounts[i] = pieces_each[i] * counts[i];
+        for (const WorkEntry& entry : work_table)
+            seen.amounts[unknown_of(entry.kind)] = entry.prior.fit_pieces * counted(row.work[entry.kind]);
         seen.time = row.frame_ms;
         times.push_back(row.frame_ms);
     }
@@ -107,7 +102,7 @@ Units scale(std::vector<Observation>& all) {
     units.frame_pieces = frame_share * pieces;
     std::vector<double> ms_each;
     for (Observation& seen : all) {
-        seen.amounts[0] = units.frame_pieces;
+        seen.amounts[frame] = units.frame_pieces;
         ms_each.push_back(seen.time / pieces_of(seen));
     }
     units.ms_each = median(ms_each);
@@ -162,13 +157,16 @@ double likeness_of(std::vector<double> residuals) {
     return likeness * std::sqrt(static_cast<double>(residuals.size())) > chance ? std::min(likeness, most) : 0;
 }
 
-// How sure the belief is of each price, in sigmas: people and updates whose count hardly changes tell nothing that a
-// drift of the machine couldn't tell as well.
+// How sure the belief is of each price: 1 over its sigma. A kind whose count hardly changes (people, updates) tells
+// nothing that a drift of the machine couldn't tell as well, so there the belief is very sure.
 Unknowns sureness_of(const std::vector<Observation>& all) {
     constexpr double least_change = 1.5;  // of the 95th percentile over the 5th
     constexpr double sure = 100;
-    Unknowns sureness{1, 1, 1, 1, 1 / update_spread};
-    for (const std::size_t kind : {person, update}) {
+    Unknowns sureness{1};
+    for (const WorkEntry& entry : work_table) {
+        const std::size_t kind = unknown_of(entry.kind);
+        sureness[kind] = 1 / entry.prior.fit_spread;
+        if (entry.axis == WorkAxis::shape) continue;
         std::vector<double> amounts;
         for (const Observation& seen : all) amounts.push_back(seen.amounts[kind]);
         std::sort(amounts.begin(), amounts.end());
@@ -178,21 +176,31 @@ Unknowns sureness_of(const std::vector<Observation>& all) {
     return sureness;
 }
 
-// Each price is 1, give or take 1 over how sure that is, but triangles and points are rather as dear as each other,
-// give or take that much.
+// Each price is 1, give or take 1 over how sure that is. But the kinds of shapes (triangles, points) are rather as dear
+// as each other, give or take as much.
 void add_belief(LeastSquares& sum, double weight, const Unknowns& prices, const Unknowns& sureness) {
-    for (const std::size_t kind : {frame, person, update}) {
+    const auto believe_in_one = [&](std::size_t unknown) {
         Unknowns coefficients{};
-        coefficients[kind] = weight * sureness[kind];
-        sum.add(coefficients, coefficients[kind]);
+        coefficients[unknown] = weight * sureness[unknown];
+        sum.add(coefficients, coefficients[unknown]);
+    };
+    believe_in_one(frame);
+    for (const WorkEntry& entry : work_table)
+        if (entry.axis != WorkAxis::shape) believe_in_one(unknown_of(entry.kind));
+
+    constexpr auto& shapes = work_on<WorkAxis::shape>;
+    double level = 1;
+    for (const WorkKind kind : shapes) level = std::max(level, prices[unknown_of(kind)]);
+    Unknowns together{};
+    for (const WorkKind kind : shapes) {
+        together[unknown_of(kind)] = level_weight * weight;
+        if (kind == shapes.front()) continue;
+        Unknowns difference{};
+        difference[unknown_of(shapes.front())] = weight / level;
+        difference[unknown_of(kind)] = -weight / level;
+        sum.add(difference, 0);
     }
-    const double level = std::max({1.0, prices[triangle], prices[point]});
-    Unknowns difference{}, both{};
-    difference[triangle] = weight / level;
-    difference[point] = -weight / level;
-    sum.add(difference, 0);
-    both[triangle] = both[point] = level_weight * weight;
-    sum.add(both, 2 * level_weight * weight);
+    sum.add(together, static_cast<double>(shapes.size()) * level_weight * weight);
 }
 
 // A row's equation, relative to its model.
@@ -261,9 +269,11 @@ Solution solve(const std::vector<Observation>& all) {
 }
 
 Prices prices_of(const Unknowns& unknown, const Units& units) {
-    Unknowns ms{};
-    for (std::size_t i = 0; i < ms.size(); ++i) ms[i] = unknown[i] * units.ms_each * pieces_each[i];
-    return {ms[0] * units.frame_pieces, ms[1], ms[2], ms[3], ms[4]};
+    Prices prices;
+    prices.frame = unknown[frame] * units.ms_each * units.frame_pieces;
+    for (const WorkEntry& entry : work_table)
+        prices[entry.kind] = unknown[unknown_of(entry.kind)] * units.ms_each * entry.prior.fit_pieces;
+    return prices;
 }
 
 // How well the model explains the times: R2 and the percentiles.
@@ -306,11 +316,6 @@ CostFit fit_costs(std::span<const TraceRow> rows) {
     fit.median_ms = units.median_ms;
     judge(fit, all, solution.prices);
     return fit;
-}
-
-double cost_of(const Work& work, const Prices& prices) {
-    return prices.frame + prices.person * counted(work.people) + prices.triangle * counted(work.triangles) +
-           prices.point * counted(work.points) + prices.update * counted(work.motion_updates);
 }
 
 }  // namespace sfsm::simulate

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "sfsm/simulate/work_plant.h"
+#include "sfsm/prices.h"
 #include "sfsm/trace.h"
 
 namespace sfsm::simulate {
@@ -40,7 +40,5 @@ CostFit fit_costs(std::span<const TraceRow> rows);
 inline bool is_frame_time(double ms) {
     return ms >= 1e-6 && ms <= 1e9;
 }
-
-double cost_of(const Work& work, const Prices& prices);  // [ms]
 
 }  // namespace sfsm::simulate

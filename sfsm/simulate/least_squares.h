@@ -5,9 +5,12 @@
 #include <array>
 #include <cstdint>
 
+#include "sfsm/work.h"
+
 namespace sfsm::simulate {
 
-inline constexpr int unknowns = 5;
+// What a frame costs: what every frame has, and each kind of work.
+inline constexpr int unknowns = 1 + static_cast<int>(work_kinds);
 using Unknowns = std::array<double, unknowns>;
 
 class LeastSquares {
@@ -22,7 +25,7 @@ public:
     // What the sum of squares would be.
     double residual(const Unknowns& at) const;
 
-    // The least sum of squares with no unknown below 0: each of the 32 sets of unknowns is held at 0, and of the
+    // The least sum of squares with no unknown below 0: each set of unknowns is held at 0 in turn, and of the
     // solutions that are in order the best is taken.
     Unknowns solve_non_negative() const;
 

@@ -15,7 +15,7 @@ namespace sfsm::simulate {
 // - Time goes with 1 / S, as between its 21.3 fps at 0.2 px and 65.5 fps at 1 px; 7,773 points a person at 0.2 px are
 //   1,555 at 1 px.
 inline constexpr Prices paper_machine{
-    .frame = 31.5, .person = 0.001, .triangle = 9.765e-6, .point = 1.576e-6, .update = 0.03665};
+    31.5, {/* person */ 0.001, /* triangle */ 9.765e-6, /* point */ 1.576e-6, /* update */ 0.03665}};
 inline constexpr View static_view{.people = 20000,
                                   .range = 600,
                                   .farness = 16,

@@ -19,21 +19,19 @@ namespace {
 
 constexpr double least_model = 1e-3;  // of a usual frame: nothing is modelled as less, or a load would have no bounds
 constexpr double rounding = 1e-12;
-constexpr std::int64_t most_count = 1'000'000'000'000'000;
 constexpr double longest_range = 1e9;      // [m]
 constexpr double most_loss = 1e9;          // [px]
 constexpr std::int64_t usual_start = 200;  // of statistics, or a tenth of a short run
 
 // The candidates of a frame. Spans point into it, so it stays where it is.
 struct Steps {
-    std::vector<MotionStep> motion;
-    std::vector<SplatStep> splats;
+    std::vector<Step> motion, shapes;
     Forecast forecast;
 
-    Steps(std::span<const MotionStep> motion_steps, std::span<const SplatStep> splat_steps, std::int64_t people)
-        : motion(motion_steps.begin(), motion_steps.end()),
-          splats(splat_steps.begin(), splat_steps.end()),
-          forecast{people, motion, splats} {}
+    explicit Steps(const Forecast& from)
+        : motion(from.motion.begin(), from.motion.end()),
+          shapes(from.shapes.begin(), from.shapes.end()),
+          forecast{from.people, motion, shapes} {}
     Steps(const Steps&) = delete;
     Steps(Steps&&) = default;  // vectors keep their memory
 };
@@ -58,7 +56,7 @@ public:
 
     // What frame `frame` took and how it was drawn.
     void record(std::int64_t frame, double ms, const Decision& decision) {
-        at(frame).load = {ms, model_ms(frame, plan(frame, decision))};
+        at(frame).load = {ms, model_ms(plan(frame, decision))};
     }
     void set_load(std::int64_t frame, const Load& load) { at(frame).load = load; }
     const Load& load(std::int64_t frame) const { return at(frame).load; }
@@ -67,7 +65,7 @@ public:
     const Forecast* forecast(std::int64_t frame) const override { return &steps_[at(frame).steps].forecast; }
     double cost_ms(std::int64_t frame, const Decision& decision) const override {
         // In this order the recorded decision takes the recorded time to the bit.
-        return load(frame).ms * (model_ms(frame, plan(frame, decision)) / load(frame).model_ms);
+        return load(frame).ms * (model_ms(plan(frame, decision)) / load(frame).model_ms);
     }
     Work work(std::int64_t frame, const Decision& decision) const override;
     double detail(std::int64_t frame, const Decision& decision) const override {
@@ -79,10 +77,7 @@ private:
     RecordedFrame& at(std::int64_t frame) { return frames_[static_cast<std::size_t>(frame)]; }
     const RecordedFrame& at(std::int64_t frame) const { return frames_[static_cast<std::size_t>(frame)]; }
     Plan plan(std::int64_t frame, const Decision& decision) const;
-    WorkPrices prices(std::int64_t frame) const;
-    double model_ms(std::int64_t frame, const Plan& plan) const {
-        return std::max(plan_ms(plan, prices(frame)), least_ms_);
-    }
+    double model_ms(const Plan& plan) const { return std::max(plan_ms(plan, prices_), least_ms_); }
 
     Prices prices_;
     double least_ms_;
@@ -96,22 +91,18 @@ Plan RecordedPlant::plan(std::int64_t frame, const Decision& decision) const {
     double distance = range, size = 0;
     // Of no use: the nearest, and the finest splats.
     if (decision.state != State::original) distance = decision.motion_distance > 0 ? decision.motion_distance : 0;
-    if (decision.state == State::points && forecast.splats.size() > 1) {
-        const double finest = forecast.splats[1].size;
+    if (decision.state == State::points && forecast.shapes.size() > 1) {
+        const double finest = forecast.shapes[1].setting;
         size = decision.splat_size > finest ? decision.splat_size : finest;
     }
     return plan_at(forecast, range, std::min(distance, range), size);
 }
 
-WorkPrices RecordedPlant::prices(std::int64_t frame) const {
-    const auto people = static_cast<double>(forecast(frame)->people);
-    return {prices_.frame + prices_.person * people, prices_.triangle, prices_.point, prices_.update};
-}
-
 Work RecordedPlant::work(std::int64_t frame, const Decision& decision) const {
     const Plan drawn = plan(frame, decision);
-    return {forecast(frame)->people, std::llround(drawn.triangles), std::llround(drawn.points),
-            std::llround(drawn.motion_updates)};
+    Work work;
+    for (std::size_t i = 0; i < work_kinds; ++i) work.counts[i] = std::llround(drawn.counts[i]);
+    return work;
 }
 
 Decision decision_of(const Plan& plan, double range) {
@@ -121,22 +112,20 @@ Decision decision_of(const Plan& plan, double range) {
 }
 
 // The least a forecast's steps can cost, whatever the prices.
-double least_plan_ms(const Forecast& forecast, const WorkPrices& prices) {
-    double motion = std::numeric_limits<double>::infinity(), splats = motion;
-    for (const MotionStep& step : forecast.motion)
-        motion = std::min(motion, prices.motion_update * static_cast<double>(step.updates));
-    for (const SplatStep& step : forecast.splats)
-        splats = std::min(splats, prices.triangle * static_cast<double>(step.triangles) +
-                                      prices.point * static_cast<double>(step.points));
-    return prices.frame + motion + splats;
+double least_plan_ms(const Forecast& forecast, const Prices& prices) {
+    const auto least_of = [each = Prices{0, prices.each}](std::span<const Step> steps) {
+        double least_ms = std::numeric_limits<double>::infinity();
+        for (const Step& step : steps) least_ms = std::min(least_ms, cost_of(step.work, each));
+        return least_ms;
+    };
+    return cost_of(Work{forecast.people}, prices) + least_of(forecast.motion) + least_of(forecast.shapes);
 }
 
 Decision RecordedPlant::optimum(std::int64_t frame, double limit_ms) const {
     const Forecast& forecast = *this->forecast(frame);
-    const WorkPrices prices = this->prices(frame);
-    const double least_ms = least_plan_ms(forecast, prices) * (1 + rounding);
+    const double least_ms = least_plan_ms(forecast, prices_) * (1 + rounding);
     const Plan best =
-        least_loss_plan(forecast, range(frame), prices, std::max(limit_ms / load(frame).factor(), least_ms));
+        least_loss_plan(forecast, range(frame), prices_, std::max(limit_ms / load(frame).factor(), least_ms));
     return decision_of(best, range(frame));
 }
 
@@ -144,25 +133,23 @@ bool is_count(std::int64_t count) {
     return count >= 0 && count <= most_count;
 }
 
-bool is_loss(double px) {
-    return px >= 0 && px <= most_loss;
+bool has_sound_numbers(const Step& step) {
+    return std::ranges::all_of(step.work.counts, is_count) && step.loss_px >= 0 && step.loss_px <= most_loss;
 }
 
 // Distances fall, only the first may be infinite; sizes rise from triangles on; all else is finite. Counts may do what
 // they like.
 bool has_sound_forecast(const TraceRow& row) {
-    if (!row.has_forecast() || !is_count(row.work.people)) return false;
+    if (!row.has_forecast() || !is_count(row.work[WorkKind::person])) return false;
+    if (!std::ranges::all_of(row.motion, has_sound_numbers) || !std::ranges::all_of(row.shapes, has_sound_numbers))
+        return false;
     for (std::size_t i = 0; i < row.motion.size(); ++i) {
-        const MotionStep& step = row.motion[i];
-        if (!is_count(step.updates) || !is_loss(step.loss_px)) return false;
-        if (i == 0 ? !(step.distance > 0) : !(step.distance > 0 && step.distance < row.motion[i - 1].distance))
-            return false;
+        const double distance = row.motion[i].setting;
+        if (!(distance > 0) || (i > 0 && !(distance < row.motion[i - 1].setting))) return false;
     }
-    for (std::size_t i = 0; i < row.splats.size(); ++i) {
-        const SplatStep& step = row.splats[i];
-        if (!is_count(step.triangles) || !is_count(step.points) || !is_loss(step.loss_px)) return false;
-        if (i == 0 ? step.size != 0 : !(step.size > row.splats[i - 1].size && step.size <= max_splat_size))
-            return false;
+    for (std::size_t i = 0; i < row.shapes.size(); ++i) {
+        const double size = row.shapes[i].setting;
+        if (i == 0 ? size != 0 : !(size > row.shapes[i - 1].setting && size <= max_splat_size)) return false;
     }
     return true;
 }
@@ -200,7 +187,7 @@ RecordedPlant own_plant(std::span<const TraceRow> rows, std::span<const std::siz
         const TraceRow& row = rows[i];
         if (has_sound_forecast(row)) {
             place[i] = steps.size();
-            steps.emplace_back(row.motion, row.splats, row.work.people);
+            steps.emplace_back(row.forecast());
         }
     }
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -214,11 +201,11 @@ RecordedPlant own_plant(std::span<const TraceRow> rows, std::span<const std::siz
 RecordedPlant reference_plant(std::size_t rows) {
     const WorkPlant crowd(paper_machine, {static_view}, [](std::int64_t) { return std::size_t{0}; });
     const double all_ms = crowd.cost_ms(0, Decision{});
-    const Prices prices{paper_machine.frame / all_ms, paper_machine.person / all_ms, paper_machine.triangle / all_ms,
-                        paper_machine.point / all_ms, paper_machine.update / all_ms};
-    const Forecast& forecast = *crowd.forecast(0);
+    Prices prices = paper_machine;
+    prices.frame /= all_ms;
+    for (double& ms : prices.each) ms /= all_ms;
     std::vector<Steps> steps;
-    steps.emplace_back(forecast.motion, forecast.splats, forecast.people);
+    steps.emplace_back(*crowd.forecast(0));
     return {prices, 1, std::move(steps), std::vector<RecordedFrame>(rows, {{}, static_view.range, 0})};
 }
 

@@ -48,12 +48,12 @@ double usable_splat(const Decision& decision) {
 
 Work work_of(const Decision& decision, const View& view) {
     Work work;
-    work.people = std::llround(view.people);
-    work.motion_updates = std::llround(view.people * updates_each(share_of(decision, view), view));
+    work[WorkKind::person] = std::llround(view.people);
+    work[WorkKind::motion_update] = std::llround(view.people * updates_each(share_of(decision, view), view));
     if (decision.state == State::points) {
-        work.points = std::llround(view.people * view.points_each / usable_splat(decision));
+        work[WorkKind::point] = std::llround(view.people * view.points_each / usable_splat(decision));
     } else {
-        work.triangles = std::llround(view.people * view.triangles_each);
+        work[WorkKind::triangle] = std::llround(view.people * view.triangles_each);
     }
     return work;
 }
@@ -63,14 +63,8 @@ double loss_of(const Decision& decision, const View& view) {
     return motion_loss(share_of(decision, view), view) + shapes;
 }
 
-double cost_of(const Work& work, const Prices& prices) {
-    return prices.frame + prices.person * static_cast<double>(work.people) +
-           prices.triangle * static_cast<double>(work.triangles) + prices.point * static_cast<double>(work.points) +
-           prices.update * static_cast<double>(work.motion_updates);
-}
-
 double cost_of(const Decision& decision, const View& view, const Prices& prices) {
-    return cost_of(work_of(decision, view), prices);
+    return sfsm::cost_of(work_of(decision, view), prices);
 }
 
 Decision triangles_at(double share, const View& view) {
@@ -92,9 +86,9 @@ std::optional<Decision> triangles_within(double limit_ms, const View& view, cons
 std::optional<Decision> points_within(double limit_ms, double share, const View& view, const Prices& prices) {
     Decision decision{State::points, share * view.range, max_splat_size};
     Work work = work_of(decision, view);
-    work.points = 0;
-    const double left_ms = limit_ms - cost_of(work, prices);
-    const double at_one_px = prices.point * view.people * view.points_each;
+    work[WorkKind::point] = 0;
+    const double left_ms = limit_ms - sfsm::cost_of(work, prices);
+    const double at_one_px = prices[WorkKind::point] * view.people * view.points_each;
     if (left_ms * max_splat_size < at_one_px) return {};
     decision.splat_size = std::max(smallest_splat, at_one_px / left_ms);
     return decision;
@@ -118,7 +112,7 @@ WorkPlant::WorkPlant(const Prices& prices, std::vector<View> views, ViewAt view_
     tables_.reserve(views_.size());
     for (const View& view : views_) {
         Tables& tables = tables_.emplace_back(tables_of(view));
-        tables.forecast = {std::llround(view.people), tables.motion, tables.splats};
+        tables.forecast = {std::llround(view.people), tables.motion, tables.shapes};
     }
 }
 
@@ -128,13 +122,13 @@ WorkPlant::Tables WorkPlant::tables_of(const View& view) {
         const double share = std::max(nearest_share, 1 - static_cast<double>(i) / motion_steps);
         const Decision decision = i == 0 ? Decision{} : triangles_at(share, view);
         tables.motion.push_back(
-            {decision.motion_distance, work_of(decision, view).motion_updates, motion_loss(share, view)});
+            {decision.motion_distance, only_on<WorkAxis::motion>(work_of(decision, view)), motion_loss(share, view)});
     }
-    tables.splats.push_back({0, work_of({}, view).triangles, 0, 0});
+    tables.shapes.push_back({0, only_on<WorkAxis::shape>(work_of({}, view)), 0});
     for (int i = 0; i <= splat_steps; ++i) {
         const double size = max_splat_size * std::exp2((i - splat_steps) / splat_steps_per_octave);
         const Work work = work_of({State::points, view.range, size}, view);
-        tables.splats.push_back({size, work.triangles, work.points, splat_loss(size)});
+        tables.shapes.push_back({size, only_on<WorkAxis::shape>(work), splat_loss(size)});
     }
     return tables;
 }

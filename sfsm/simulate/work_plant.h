@@ -5,18 +5,10 @@
 #include <functional>
 #include <vector>
 
+#include "sfsm/prices.h"
 #include "sfsm/simulate/plant.h"
 
 namespace sfsm::simulate {
-
-// Of one unit of each kind of work [ms].
-struct Prices {
-    double frame = 0;  // whatever is drawn
-    double person = 0;
-    double triangle = 0;
-    double point = 0;
-    double update = 0;  // of a person's pose
-};
 
 // What the camera sees. Nearer than depth x L there are x^farness of the people: a crowd on the far stands has a large
 // farness. Those beyond D are all taken to be about L away, where equation 1 gives f = 1 + theta (L - D).
@@ -51,8 +43,7 @@ public:
 
 private:
     struct Tables {
-        std::vector<MotionStep> motion;
-        std::vector<SplatStep> splats;
+        std::vector<Step> motion, shapes;
         Forecast forecast;
     };
 

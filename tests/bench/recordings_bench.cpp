@@ -7,6 +7,7 @@
 
 #include "sfsm/number_text.h"
 #include "sfsm/recordings/recording.h"
+#include "tests/sfsm/steps.h"
 
 namespace sfsm {
 namespace {
@@ -42,9 +43,10 @@ std::string presentmon_rows(int rows, int streams) {
 // Rows of about 1.5 KB, most of it a forecast.
 std::string our_rows(int rows) {
     TraceRow row;
-    for (int i = 1; i <= 24; ++i) row.motion.push_back({8.123456789 * i, 7919 * i, 0.123456789012345 * i});
+    for (int i = 1; i <= 24; ++i)
+        row.motion.push_back(sfsm::motion_step(8.123456789 * i, 7919 * i, 0.123456789012345 * i));
     for (int i = 1; i <= 20; ++i) {
-        row.splats.push_back({0.7071067811865476 * i, 104729 * i, 99991 * i, 0.314159265358979 / i});
+        row.shapes.push_back(sfsm::shape_step(0.7071067811865476 * i, 104729 * i, 99991 * i, 0.314159265358979 / i));
     }
     row.work = {12000, 3456789, 987654, 4321};
     std::ostringstream out;

@@ -54,20 +54,19 @@ private:
 };
 
 struct HostileForecast {
-    std::array<MotionStep, 4> motion;
-    std::array<SplatStep, 4> splats;
+    std::array<Step, 4> motion, shapes;
     Forecast forecast;
 
     explicit HostileForecast(Reader& reader) {
         const std::size_t motion_count = reader.byte() % (motion.size() + 1);
-        const std::size_t splat_count = reader.byte() % (splats.size() + 1);
+        const std::size_t shape_count = reader.byte() % (shapes.size() + 1);
         for (std::size_t i = 0; i < motion_count; ++i) {
-            motion[i] = {reader.number(150), reader.count(), reader.number(1)};
+            motion[i] = {reader.number(150), Work{0, 0, 0, reader.count()}, reader.number(1)};
         }
-        for (std::size_t i = 0; i < splat_count; ++i) {
-            splats[i] = {reader.number(4), reader.count(), reader.count(), reader.number(1)};
+        for (std::size_t i = 0; i < shape_count; ++i) {
+            shapes[i] = {reader.number(4), Work{0, reader.count(), reader.count()}, reader.number(1)};
         }
-        forecast = {reader.count(), std::span(motion).first(motion_count), std::span(splats).first(splat_count)};
+        forecast = {reader.count(), std::span(motion).first(motion_count), std::span(shapes).first(shape_count)};
     }
 };
 

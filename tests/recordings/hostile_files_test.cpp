@@ -3,6 +3,7 @@
 #include <random>
 
 #include "tests/recordings/tables.h"
+#include "tests/sfsm/steps.h"
 
 namespace sfsm {
 namespace {
@@ -16,8 +17,8 @@ std::string our_trace() {
     std::ostringstream out;
     write_trace_header(out, {{"law", "paper"}});
     TraceRow row;
-    row.motion = {{100, 5, 0.5}};
-    row.splats = {{1, 2, 3, 0.25}};
+    row.motion = {motion_step(100, 5, 0.5)};
+    row.shapes = {shape_step(1, 2, 3, 0.25)};
     for (row.frame = 0; row.frame < 3; ++row.frame) write_trace_row(out, row);
     return out.str();
 }
@@ -46,7 +47,7 @@ TEST(HostileFiles, CutAnywhereTheyReadAsAPrefixOrAreRefused) {
                 for (std::size_t i = 0; i < cut.trace.rows.size(); ++i) {
                     const TraceRow &a = cut.trace.rows[i], &b = whole.trace.rows[i];
                     ASSERT_TRUE(same(a.frame_ms, b.frame_ms) && same(a.cpu_ms, b.cpu_ms) && same(a.gpu_ms, b.gpu_ms) &&
-                                a.motion == b.motion && a.splats == b.splats)
+                                a.motion == b.motion && a.shapes == b.shapes)
                         << "frame " << i << " of the first " << size << " bytes of\n"
                         << text;
                 }

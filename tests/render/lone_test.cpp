@@ -79,9 +79,9 @@ TEST(LonePerson, IsDrawnWholeByWhoeverStandsInThem) {
         const render::Survey& survey = selector.survey(view, 0);
         ASSERT_EQ(survey.forecast.people, 1) << ahead;
         EXPECT_GE(survey.range, 1);
-        for (const sfsm::SplatStep& step : survey.forecast.splats) {
+        for (const sfsm::Step& step : survey.forecast.shapes) {
             EXPECT_GE(step.loss_px, 0);
-            EXPECT_EQ(step.points, 0) << "S = " << step.size;
+            EXPECT_EQ(step.work[sfsm::WorkKind::point], 0) << "S = " << step.setting;
         }
         const render::Selection& selection = selector.select({State::points, 10, 32}, -1);
         ASSERT_EQ(selection.batches.size(), 1u);
@@ -172,7 +172,7 @@ TEST(LonePerson, StaysAsTheyWereUntilTheyAreDue) {
             selector.survey(view, tick);
             const render::Selection& selection = selector.select(decision, tick - 1);
             ASSERT_EQ(selection.instances.size(), 1u);
-            const bool moved = selection.work.motion_updates == 1;
+            const bool moved = selection.work[sfsm::WorkKind::motion_update] == 1;
             if (tick > 500 && !moved) {
                 EXPECT_EQ(std::memcmp(&last, &selection.instances[0], sizeof last), 0) << "tick " << tick;
                 EXPECT_EQ(last_pose, selection.batches[0].pose) << "tick " << tick;
@@ -212,8 +212,8 @@ TEST(Forecast, LossOfMotionIsTheMeasuredDisplacement) {
     Selector selector(row.crowd, row.figures()), fresh(row.crowd, row.figures());
     const sfsm::Forecast forecast = selector.survey(view, 0).forecast;
     ASSERT_EQ(forecast.people, 120);
-    const std::vector<sfsm::MotionStep> steps(forecast.motion.begin(), forecast.motion.end());
-    for (const sfsm::MotionStep& step : steps) {
+    const std::vector<sfsm::Step> steps(forecast.motion.begin(), forecast.motion.end());
+    for (const sfsm::Step& step : steps) {
         double displaced = 0;  // [px] summed
         int looks = 0;
         for (std::int64_t tick = 400; tick < 400 + 3 * motion::max_period; ++tick) {
@@ -228,7 +228,7 @@ TEST(Forecast, LossOfMotionIsTheMeasuredDisplacement) {
                             static_cast<double>(rise) * std::min(batch.pose, poses - batch.pose) / 60;
                 return found;
             };
-            const std::map<float, double> old = heights(selector, {State::slowed, step.distance, 0});
+            const std::map<float, double> old = heights(selector, {State::slowed, step.setting, 0});
             const std::map<float, double> now = heights(fresh, {});
             for (const auto& [z, height_now] : now) {
                 const double lag = std::abs(height_now - old.at(z));
@@ -236,14 +236,14 @@ TEST(Forecast, LossOfMotionIsTheMeasuredDisplacement) {
                 ++looks;
             }
         }
-        if (std::isinf(step.distance)) {
+        if (std::isinf(step.setting)) {
             EXPECT_EQ(step.loss_px, 0);
             EXPECT_EQ(displaced, 0);
             continue;
         }
         constexpr double bin_width = 0.1;  // 64 bins of depth, of which the nearest has several periods in it
         const double measured = displaced / looks;
-        EXPECT_NEAR(step.loss_px, measured, bin_width * measured + 0.002) << "D = " << step.distance;
+        EXPECT_NEAR(step.loss_px, measured, bin_width * measured + 0.002) << "D = " << step.setting;
     }
     EXPECT_GT(steps.back().loss_px, 0.1);
 }
@@ -258,21 +258,21 @@ TEST(Forecast, LossOfSplatsIsHalfASplatOrHalfThePerson) {
     const render::View view = view_from({0, 0.9, 0}, {0, 0, -1});
     Selector selector(row.crowd, row.figures());
     const sfsm::Forecast forecast = selector.survey(view, 0).forecast;
-    const std::vector<sfsm::SplatStep> steps(forecast.splats.begin(), forecast.splats.end());
-    for (const sfsm::SplatStep& step : steps) {
+    const std::vector<sfsm::Step> steps(forecast.shapes.begin(), forecast.shapes.end());
+    for (const sfsm::Step& step : steps) {
         double lost = 0;
-        const Decision decision = step.size == 0 ? Decision{} : Decision{State::points, 1000, step.size};
+        const Decision decision = step.setting == 0 ? Decision{} : Decision{State::points, 1000, step.setting};
         const render::Selection& selection = selector.select(decision, -1);
         for (const render::Batch& batch : selection.batches) {
             for (std::uint32_t i = 0; i < batch.instance_count && batch.points > 0; ++i) {
                 const double depth = -selection.instances[batch.first_instance + i].position.z;
                 const double silhouette = std::sqrt(area / 4) * height / (2 * std::tan(0.45) * depth);
-                lost += std::min(step.size, silhouette) / 2;
+                lost += std::min(step.setting, silhouette) / 2;
             }
         }
         constexpr double bin_width = 0.05;
         const double measured = lost / static_cast<double>(forecast.people);
-        EXPECT_NEAR(step.loss_px, measured, bin_width * measured) << "S = " << step.size;
+        EXPECT_NEAR(step.loss_px, measured, bin_width * measured) << "S = " << step.setting;
     }
     EXPECT_EQ(steps.front().loss_px, 0);
     EXPECT_GT(steps.back().loss_px, 1);
@@ -284,15 +284,15 @@ TEST(Forecast, HasStepsForAllThatALawMayDecide) {
     const tests::LonePeople lone(tests::make_lift(body_half, 0, 0.5, 8), {&feet, 1}, 1000);
     Selector selector(lone.crowd, lone.figures());
     const render::Survey& survey = selector.survey(view_from({0, 0.9, 0}, {0, 0, -1}), 0);
-    const auto& splats = survey.forecast.splats;
-    EXPECT_EQ(splats.front().size, 0);
-    EXPECT_LT(splats[1].size, 0.5);
-    EXPECT_DOUBLE_EQ(splats.back().size, sfsm::max_splat_size);
-    for (std::size_t i = 2; i < splats.size(); ++i) EXPECT_NEAR(splats[i].size / splats[i - 1].size, 1.19, 0.01);
+    const auto& splats = survey.forecast.shapes;
+    EXPECT_EQ(splats.front().setting, 0);
+    EXPECT_LT(splats[1].setting, 0.5);
+    EXPECT_DOUBLE_EQ(splats.back().setting, sfsm::max_splat_size);
+    for (std::size_t i = 2; i < splats.size(); ++i) EXPECT_NEAR(splats[i].setting / splats[i - 1].setting, 1.19, 0.01);
     const auto& moves = survey.forecast.motion;
-    EXPECT_TRUE(std::isinf(moves.front().distance)) << "everybody moves";
-    EXPECT_LT(moves[1].distance, survey.range);
-    EXPECT_LT(moves.back().distance, 0.02 * survey.range);
+    EXPECT_TRUE(std::isinf(moves.front().setting)) << "everybody moves";
+    EXPECT_LT(moves[1].setting, survey.range);
+    EXPECT_LT(moves.back().setting, 0.02 * survey.range);
     EXPECT_NEAR(survey.range, 30, 0.01);
 }
 

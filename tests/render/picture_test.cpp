@@ -151,16 +151,16 @@ TEST_F(Picture, SplatsReachHalfTheirSizeBeyondTheOutline) {
     render::Selector selector(portrait.scene.crowd, portrait.scene.figures());
     const sfsm::Forecast forecast = selector.survey(view, 0).forecast;
     int checked = 0;
-    for (const sfsm::SplatStep& step : std::vector(forecast.splats.begin(), forecast.splats.end())) {
-        if (step.size < 5 || step.size > 14 || step.points == 0) continue;
+    for (const sfsm::Step& step : std::vector(forecast.shapes.begin(), forecast.shapes.end())) {
+        if (step.setting < 5 || step.setting > 14 || step.work[sfsm::WorkKind::point] == 0) continue;
         ++checked;
-        EXPECT_NEAR(step.loss_px, step.size / 2, 1e-6);
+        EXPECT_NEAR(step.loss_px, step.setting / 2, 1e-6);
         const std::set<int> points =
-            differing_pixels(portrait.draw(view, {sfsm::State::points, 100, step.size}), nobody);
+            differing_pixels(portrait.draw(view, {sfsm::State::points, 100, step.setting}), nobody);
         // The outline's farthest spots may lie just off the nearest point.
         const int reach = farthest_from(triangles, points);
-        EXPECT_LE(reach, step.loss_px + 1) << "S = " << step.size;
-        EXPECT_GE(reach, 0.6 * step.loss_px) << "S = " << step.size;
+        EXPECT_LE(reach, step.loss_px + 1) << "S = " << step.setting;
+        EXPECT_GE(reach, 0.6 * step.loss_px) << "S = " << step.setting;
     }
     EXPECT_GE(checked, 4);
 }

@@ -117,15 +117,15 @@ TEST(Selection, WorkIsTheSumOverItsBatches) {
             triangles += std::int64_t{batch.instance_count} *
                          static_cast<std::int64_t>(small_scene().person.mesh.triangle_count());
     }
-    EXPECT_EQ(selection.work.people, people);
-    EXPECT_EQ(selection.work.triangles, triangles);
-    EXPECT_EQ(selection.work.points, points);
+    EXPECT_EQ(selection.work[sfsm::WorkKind::person], people);
+    EXPECT_EQ(selection.work[sfsm::WorkKind::triangle], triangles);
+    EXPECT_EQ(selection.work[sfsm::WorkKind::point], points);
     EXPECT_GT(points, 0);
 }
 
 TEST(Selection, LargerSplatsNeverCostMore) {
     const auto price = [](const Selection& s) {
-        return 2 * s.work.points + s.work.triangles;
+        return 2 * s.work[sfsm::WorkKind::point] + s.work[sfsm::WorkKind::triangle];
     };  // as SelectOptions has it
     std::int64_t last = price(select_once(view_of("still"), {}));
     for (double splat_size = 0.25; splat_size <= 32; splat_size *= 1.3) {
@@ -163,7 +163,7 @@ TEST(Survey, NeedsNoFrameBeforeIt) {
         EXPECT_EQ(survey.range, alone.range) << preset;
         EXPECT_EQ(survey.forecast.people, alone.forecast.people) << preset;
         EXPECT_TRUE(std::ranges::equal(survey.forecast.motion, alone.forecast.motion)) << preset;
-        EXPECT_TRUE(std::ranges::equal(survey.forecast.splats, alone.forecast.splats)) << preset;
+        EXPECT_TRUE(std::ranges::equal(survey.forecast.shapes, alone.forecast.shapes)) << preset;
     }
 }
 
@@ -173,12 +173,12 @@ TEST(Survey, OfNobodyCostsAndLosesNothing) {
     const render::Survey& survey = selector.survey(up, 100);
     EXPECT_EQ(survey.range, 1);
     EXPECT_EQ(survey.forecast.people, 0);
-    for (const sfsm::MotionStep& step : survey.forecast.motion) {
-        EXPECT_EQ(step.updates, 0);
+    for (const sfsm::Step& step : survey.forecast.motion) {
+        EXPECT_EQ(step.work[sfsm::WorkKind::motion_update], 0);
         EXPECT_EQ(step.loss_px, 0);
     }
-    for (const sfsm::SplatStep& step : survey.forecast.splats) {
-        EXPECT_EQ(step.triangles + step.points, 0);
+    for (const sfsm::Step& step : survey.forecast.shapes) {
+        EXPECT_EQ(step.work[sfsm::WorkKind::triangle] + step.work[sfsm::WorkKind::point], 0);
         EXPECT_EQ(step.loss_px, 0);
     }
     const Selection& selection = selector.select(points_of(4), 99);
@@ -188,15 +188,15 @@ TEST(Survey, OfNobodyCostsAndLosesNothing) {
 
 TEST(Selection, MovesEverybodyInStateZeroAndFewerTheNearerD) {
     const Selection all = select_once(view_of("still"), {});
-    EXPECT_EQ(all.work.motion_updates, all.work.people);
-    std::int64_t last = all.work.people;
+    EXPECT_EQ(all.work[sfsm::WorkKind::motion_update], all.work[sfsm::WorkKind::person]);
+    std::int64_t last = all.work[sfsm::WorkKind::person];
     for (const double motion_distance : {200.0, 120.0, 60.0, 20.0, 1.0}) {
         const std::int64_t moved =
-            select_once(view_of("still"), {State::slowed, motion_distance, 0}).work.motion_updates;
+            select_once(view_of("still"), {State::slowed, motion_distance, 0}).work[sfsm::WorkKind::motion_update];
         EXPECT_LE(moved, last) << "D = " << motion_distance;
         last = moved;
     }
-    EXPECT_LT(last, all.work.people / 2);
+    EXPECT_LT(last, all.work[sfsm::WorkKind::person] / 2);
 }
 
 TEST(Selection, MovesEachPersonOnceAPeriod) {
@@ -208,10 +208,11 @@ TEST(Selection, MovesEachPersonOnceAPeriod) {
     std::int64_t moved = 0, people = 0;
     for (std::int64_t tick = 100; tick < 100 + motion::max_period; ++tick) {
         const Selection& selection = select_at(selector, view, decision, tick);
-        moved += selection.work.motion_updates;
-        people = selection.work.people;
+        moved += selection.work[sfsm::WorkKind::motion_update];
+        people = selection.work[sfsm::WorkKind::person];
         // Staggered: no frame moves more than twice its share of the people.
-        EXPECT_LT(selection.work.motion_updates, 2 * selection.work.people / motion::max_period + 20);
+        EXPECT_LT(selection.work[sfsm::WorkKind::motion_update],
+                  2 * selection.work[sfsm::WorkKind::person] / motion::max_period + 20);
     }
     EXPECT_EQ(moved, people);
 }
@@ -219,7 +220,7 @@ TEST(Selection, MovesEachPersonOnceAPeriod) {
 TEST(Selection, NothingMovesWhileTimeStandsStill) {
     Selector selector(small_scene().crowd, small_scene().figures());
     selector.survey(view_of("still"), 50);
-    EXPECT_EQ(selector.select({}, 50).work.motion_updates, 0);
+    EXPECT_EQ(selector.select({}, 50).work[sfsm::WorkKind::motion_update], 0);
 }
 
 TEST(Selection, RangeReachesTheFarthestPersonInView) {
@@ -243,15 +244,17 @@ TEST(Forecast, CountsWhatSelectionDraws) {
     for (const char* preset : {"still", "close", "medium", "remote"}) {
         Selector selector(small_scene().crowd, small_scene().figures());
         const sfsm::Forecast forecast = selector.survey(view_of(preset), 100).forecast;
-        EXPECT_EQ(forecast.splats.front().size, 0);
-        for (const sfsm::SplatStep& step : forecast.splats) {
-            const Decision decision = step.size == 0 ? Decision{} : points_of(step.size);
+        EXPECT_EQ(forecast.shapes.front().setting, 0);
+        for (const sfsm::Step& step : forecast.shapes) {
+            const Decision decision = step.setting == 0 ? Decision{} : points_of(step.setting);
             const sfsm::Work work = selector.select(decision, 99).work;
-            EXPECT_EQ(forecast.people, work.people);
+            EXPECT_EQ(forecast.people, work[sfsm::WorkKind::person]);
             // In units of price: what changes from triangles to points is counted in both.
-            const double price = 2.0 * static_cast<double>(work.points) + static_cast<double>(work.triangles);
-            const double foreseen = 2.0 * static_cast<double>(step.points) + static_cast<double>(step.triangles);
-            EXPECT_NEAR(foreseen, price, bin_error * price) << preset << ", S = " << step.size;
+            const double price = 2.0 * static_cast<double>(work[sfsm::WorkKind::point]) +
+                                 static_cast<double>(work[sfsm::WorkKind::triangle]);
+            const double foreseen = 2.0 * static_cast<double>(step.work[sfsm::WorkKind::point]) +
+                                    static_cast<double>(step.work[sfsm::WorkKind::triangle]);
+            EXPECT_NEAR(foreseen, price, bin_error * price) << preset << ", S = " << step.setting;
         }
     }
 }
@@ -265,25 +268,25 @@ TEST(Selection, HasOnlyThoseWhoHaveArrived) {
     for (const std::int64_t tick : {0, 1, 250, 500, 1000}) {
         EXPECT_GE(selector.survey(view, tick).forecast.people, before);
         before = selector.survey(view, tick).forecast.people;
-        EXPECT_EQ(selector.select({}, tick - 1).work.people, before);
+        EXPECT_EQ(selector.select({}, tick - 1).work[sfsm::WorkKind::person], before);
         EXPECT_TRUE(tick > 0 || before == 0);
     }
-    EXPECT_EQ(before, select_once(view, {}).work.people);
+    EXPECT_EQ(before, select_once(view, {}).work[sfsm::WorkKind::person]);
 }
 
 TEST(Forecast, CountsWhoMovesOnAverage) {
     for (const float theta : {motion::default_theta, 3 * motion::default_theta}) {
         Selector selector(small_scene().crowd, small_scene().figures(), {.theta = theta});
         const sfsm::Forecast forecast = selector.survey(view_of("still"), 100).forecast;
-        for (const sfsm::MotionStep& step : std::vector(forecast.motion.begin(), forecast.motion.end())) {
+        for (const sfsm::Step& step : std::vector(forecast.motion.begin(), forecast.motion.end())) {
             std::int64_t moved = 0;
             constexpr std::int64_t ticks = 2 * motion::max_period;
             for (std::int64_t tick = 100; tick < 100 + ticks; ++tick)
-                moved +=
-                    select_at(selector, view_of("still"), {State::slowed, step.distance, 0}, tick).work.motion_updates;
+                moved += select_at(selector, view_of("still"), {State::slowed, step.setting, 0}, tick)
+                             .work[sfsm::WorkKind::motion_update];
             const double mean = static_cast<double>(moved) / ticks;
-            EXPECT_NEAR(static_cast<double>(step.updates), mean, bin_error * mean)
-                << "theta = " << theta << ", D = " << step.distance;
+            EXPECT_NEAR(static_cast<double>(step.work[sfsm::WorkKind::motion_update]), mean, bin_error * mean)
+                << "theta = " << theta << ", D = " << step.setting;
         }
     }
 }
@@ -322,10 +325,10 @@ TEST(Forecast, LossOfMotionIsTheCrowdsOwnOverTime) {
         const render::View view = view_of(preset);
         Selector selector(small_scene().crowd, small_scene().figures());
         const sfsm::Forecast forecast = selector.survey(view, 100).forecast;
-        for (const sfsm::MotionStep& step : forecast.motion) {
-            const double measured = measured_displacement(view, step.distance);
+        for (const sfsm::Step& step : forecast.motion) {
+            const double measured = measured_displacement(view, step.setting);
             constexpr double chance = 0.12;  // who is excited when, among a few hundred
-            EXPECT_NEAR(step.loss_px, measured, chance * measured + 0.0003) << preset << ", D = " << step.distance;
+            EXPECT_NEAR(step.loss_px, measured, chance * measured + 0.0003) << preset << ", D = " << step.setting;
         }
     }
 }
@@ -334,15 +337,17 @@ TEST(Forecast, WorkShrinksAndLossGrowsAlongTheSteps) {
     Selector selector(small_scene().crowd, small_scene().figures());
     for (const char* preset : {"still", "close", "medium", "remote"}) {
         const sfsm::Forecast forecast = selector.survey(view_of(preset), 100).forecast;
-        for (std::size_t i = 1; i < forecast.splats.size(); ++i) {
-            const sfsm::SplatStep &finer = forecast.splats[i - 1], &coarser = forecast.splats[i];
-            EXPECT_GT(coarser.size, finer.size);
-            EXPECT_LE(2 * coarser.points + coarser.triangles, 2 * finer.points + finer.triangles);
+        for (std::size_t i = 1; i < forecast.shapes.size(); ++i) {
+            const sfsm::Step &finer = forecast.shapes[i - 1], &coarser = forecast.shapes[i];
+            EXPECT_GT(coarser.setting, finer.setting);
+            EXPECT_LE(2 * coarser.work[sfsm::WorkKind::point] + coarser.work[sfsm::WorkKind::triangle],
+                      2 * finer.work[sfsm::WorkKind::point] + finer.work[sfsm::WorkKind::triangle]);
             EXPECT_GE(coarser.loss_px, finer.loss_px);
         }
         for (std::size_t i = 1; i < forecast.motion.size(); ++i) {
-            EXPECT_LT(forecast.motion[i].distance, forecast.motion[i - 1].distance);
-            EXPECT_LE(forecast.motion[i].updates, forecast.motion[i - 1].updates);
+            EXPECT_LT(forecast.motion[i].setting, forecast.motion[i - 1].setting);
+            EXPECT_LE(forecast.motion[i].work[sfsm::WorkKind::motion_update],
+                      forecast.motion[i - 1].work[sfsm::WorkKind::motion_update]);
             EXPECT_GE(forecast.motion[i].loss_px, forecast.motion[i - 1].loss_px);
         }
     }

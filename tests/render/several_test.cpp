@@ -105,12 +105,9 @@ TEST(Several, AreDrawnAsEachWouldBeAlone) {
             Selector alone(parts[i].crowd, parts[i].figures());
             alone.survey(view, 777);
             const render::Selection& selection = alone.select(decision, 776);
-            EXPECT_GT(selection.work.people, rows / 2);
+            EXPECT_GT(selection.work[sfsm::WorkKind::person], rows / 2);
             add(expected, i, selection);
-            work.people += selection.work.people;
-            work.triangles += selection.work.triangles;
-            work.points += selection.work.points;
-            work.motion_updates += selection.work.motion_updates;
+            work += selection.work;
         }
         EXPECT_EQ(drawn, expected);
         EXPECT_EQ(together.work, work);
@@ -122,33 +119,36 @@ TEST(Several, AreForecastAsEachWouldBeAlone) {
     const Together all(parts);
     Selector selector(all.crowd, all.figures);
     const sfsm::Forecast together = selector.survey(along_the_columns(), 100).forecast;
-    std::vector<sfsm::SplatStep> splats(together.splats.size());
-    std::vector<sfsm::MotionStep> motion(together.motion.size());
+    std::vector<sfsm::Step> splats(together.shapes.size());
+    std::vector<sfsm::Step> motion(together.motion.size());
     for (const tests::LonePeople& part : parts) {
         Selector alone(part.crowd, part.figures());
         const sfsm::Forecast forecast = alone.survey(along_the_columns(), 100).forecast;
         ASSERT_EQ(forecast.people, rows);
         const double share = 1.0 / static_cast<double>(parts.size());  // there are as many of each
         for (std::size_t i = 0; i < splats.size(); ++i) {
-            splats[i].triangles += forecast.splats[i].triangles;
-            splats[i].points += forecast.splats[i].points;
-            splats[i].loss_px += share * forecast.splats[i].loss_px;
+            splats[i].work[sfsm::WorkKind::triangle] += forecast.shapes[i].work[sfsm::WorkKind::triangle];
+            splats[i].work[sfsm::WorkKind::point] += forecast.shapes[i].work[sfsm::WorkKind::point];
+            splats[i].loss_px += share * forecast.shapes[i].loss_px;
         }
         for (std::size_t i = 0; i < motion.size(); ++i) {
-            motion[i].updates += forecast.motion[i].updates;
+            motion[i].work[sfsm::WorkKind::motion_update] += forecast.motion[i].work[sfsm::WorkKind::motion_update];
             motion[i].loss_px += share * forecast.motion[i].loss_px;
         }
     }
     for (std::size_t i = 0; i < splats.size(); ++i) {
-        EXPECT_EQ(together.splats[i].triangles, splats[i].triangles) << "S = " << together.splats[i].size;
-        EXPECT_EQ(together.splats[i].points, splats[i].points) << "S = " << together.splats[i].size;
-        EXPECT_NEAR(together.splats[i].loss_px, splats[i].loss_px, 1e-9) << "S = " << together.splats[i].size;
+        EXPECT_EQ(together.shapes[i].work[sfsm::WorkKind::triangle], splats[i].work[sfsm::WorkKind::triangle])
+            << "S = " << together.shapes[i].setting;
+        EXPECT_EQ(together.shapes[i].work[sfsm::WorkKind::point], splats[i].work[sfsm::WorkKind::point])
+            << "S = " << together.shapes[i].setting;
+        EXPECT_NEAR(together.shapes[i].loss_px, splats[i].loss_px, 1e-9) << "S = " << together.shapes[i].setting;
     }
     constexpr double rounding = 2;  // each forecast's updates are whole
     for (std::size_t i = 0; i < motion.size(); ++i) {
-        const auto updates = static_cast<double>(together.motion[i].updates);
-        EXPECT_NEAR(updates, static_cast<double>(motion[i].updates), rounding) << "D = " << together.motion[i].distance;
-        EXPECT_NEAR(together.motion[i].loss_px, motion[i].loss_px, 1e-9) << "D = " << together.motion[i].distance;
+        const auto updates = static_cast<double>(together.motion[i].work[sfsm::WorkKind::motion_update]);
+        EXPECT_NEAR(updates, static_cast<double>(motion[i].work[sfsm::WorkKind::motion_update]), rounding)
+            << "D = " << together.motion[i].setting;
+        EXPECT_NEAR(together.motion[i].loss_px, motion[i].loss_px, 1e-9) << "D = " << together.motion[i].setting;
     }
 }
 
@@ -162,13 +162,15 @@ TEST(Units, OfAModelChangeNothingThatIsSeen) {
         const sfsm::Forecast expected = one.survey(along_the_columns(), 100).forecast,
                              found = two.survey(along_the_columns(), 100).forecast;
         EXPECT_EQ(found.people, expected.people);
-        for (std::size_t i = 0; i < expected.splats.size(); ++i) {
-            const auto points = static_cast<double>(expected.splats[i].points),
-                       triangles = static_cast<double>(expected.splats[i].triangles);
+        for (std::size_t i = 0; i < expected.shapes.size(); ++i) {
+            const auto points = static_cast<double>(expected.shapes[i].work[sfsm::WorkKind::point]),
+                       triangles = static_cast<double>(expected.shapes[i].work[sfsm::WorkKind::triangle]);
             const double either = bin_edge * (points + triangles);
-            EXPECT_NEAR(static_cast<double>(found.splats[i].points), points, either) << per_metre;
-            EXPECT_NEAR(static_cast<double>(found.splats[i].triangles), triangles, either) << per_metre;
-            EXPECT_NEAR(found.splats[i].loss_px, expected.splats[i].loss_px, bin_edge * (1 + expected.splats[i].size));
+            EXPECT_NEAR(static_cast<double>(found.shapes[i].work[sfsm::WorkKind::point]), points, either) << per_metre;
+            EXPECT_NEAR(static_cast<double>(found.shapes[i].work[sfsm::WorkKind::triangle]), triangles, either)
+                << per_metre;
+            EXPECT_NEAR(found.shapes[i].loss_px, expected.shapes[i].loss_px,
+                        bin_edge * (1 + expected.shapes[i].setting));
         }
         for (std::size_t i = 0; i < expected.motion.size(); ++i)
             EXPECT_NEAR(found.motion[i].loss_px, expected.motion[i].loss_px, bin_edge * expected.motion[i].loss_px);

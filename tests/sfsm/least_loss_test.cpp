@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/sfsm/simulation.h"
+#include "tests/sfsm/steps.h"
 
 namespace sfsm {
 namespace {
@@ -17,39 +18,41 @@ constexpr double rounding = 1e-9;  // relative, of sums of a few products
 
 // Steps as a renderer makes them: along each list work falls and loss grows.
 struct Steps {
-    std::vector<MotionStep> motion;
-    std::vector<SplatStep> splats;
-    WorkPrices prices;
+    std::vector<Step> motion, shapes;
+    Prices prices;
 
     explicit Steps(std::mt19937_64& random) {
         const int motions = 1 + static_cast<int>(random() % 8), sizes = static_cast<int>(random() % 12);
         std::int64_t updates = 10'000;
         double loss = 0, share = 1;
         for (int i = 0; i < motions; ++i) {
-            motion.push_back({i == 0 ? std::numeric_limits<double>::infinity() : share * test_range, updates, loss});
+            motion.push_back(
+                motion_step(i == 0 ? std::numeric_limits<double>::infinity() : share * test_range, updates, loss));
             updates = static_cast<std::int64_t>(uniform(random, 0.3, 1) * static_cast<double>(updates));
             share *= uniform(random, 0.7, 0.99);
             loss += uniform(random, 0, 2);
         }
-        splats.push_back({0, 1'000'000, 0, 0});
+        shapes.push_back(shape_step(0, 1'000'000, 0, 0));
         std::int64_t points = 800'000;
         double size = 0.5;
         loss = 0;
         for (int i = 0; i < sizes; ++i) {
             loss += uniform(random, 0, 2);
-            splats.push_back({size, points / 4, points, loss});
+            shapes.push_back(shape_step(size, points / 4, points, loss));
             points = static_cast<std::int64_t>(uniform(random, 0.5, 1) * static_cast<double>(points));
             size *= std::exp2(0.25);
         }
         // Points that cost more than the triangles they stand for are in no renderer's list.
         const double point = uniform(random, 0, 1e-5);
-        prices = {uniform(random, 0, 5), point + uniform(random, 0, 1e-5), point, uniform(random, 0, 1e-3)};
+        prices = {uniform(random, 0, 5), {0, point + uniform(random, 0, 1e-5), point, uniform(random, 0, 1e-3)}};
     }
-    Forecast forecast() const { return {1000, motion, splats}; }
+    Forecast forecast() const { return {1000, motion, shapes}; }
 
-    double ms(const MotionStep& m, const SplatStep& s) const {
-        return prices.frame + prices.motion_update * static_cast<double>(m.updates) +
-               prices.triangle * static_cast<double>(s.triangles) + prices.point * static_cast<double>(s.points);
+    double ms(const Step& m, const Step& s) const {
+        double ms = prices.frame;
+        for (std::size_t i = 0; i < work_kinds; ++i)
+            ms += prices.each[i] * static_cast<double>(m.work.counts[i] + s.work.counts[i]);
+        return ms;
     }
 };
 
@@ -57,8 +60,8 @@ TEST(LeastLoss, NoPairOfStepsThatFitsLosesLess) {
     std::mt19937_64 random(1);
     for (int trial = 0; trial < 2000; ++trial) {
         const Steps steps(random);
-        const double least = steps.ms(steps.motion.back(), steps.splats.back());
-        const double most = steps.ms(steps.motion.front(), steps.splats.front());
+        const double least = steps.ms(steps.motion.back(), steps.shapes.back());
+        const double most = steps.ms(steps.motion.front(), steps.shapes.front());
         const double budget = uniform(random, 0.9 * least, 1.1 * most);
         const Plan plan = least_loss_plan(steps.forecast(), test_range, steps.prices, budget);
         if (budget >= least) {
@@ -66,8 +69,8 @@ TEST(LeastLoss, NoPairOfStepsThatFitsLosesLess) {
         } else {
             ASSERT_EQ(plan.loss_px, cheapest_plan(steps.forecast(), test_range).loss_px) << trial;
         }
-        for (const MotionStep& m : steps.motion) {
-            for (const SplatStep& s : steps.splats) {
+        for (const Step& m : steps.motion) {
+            for (const Step& s : steps.shapes) {
                 if (steps.ms(m, s) > budget) continue;
                 ASSERT_LE(plan.loss_px, m.loss_px + s.loss_px + rounding) << trial;
             }
@@ -92,28 +95,28 @@ TEST(LeastLoss, MoreTimeNeverLosesMore) {
 // Between two steps all of the time is used, but where there is no between: from triangles to the finest points, and
 // down from a distance without end.
 TEST(LeastLoss, ABudgetBetweenTwoSplatSizesIsMetBetweenThem) {
-    const std::vector<MotionStep> motion = {{test_range, 0, 0}};
-    const std::vector<SplatStep> splats = {{0, 1000, 0, 0}, {1, 0, 800, 2}, {2, 0, 400, 4}};
-    const Forecast forecast{100, motion, splats};
-    const WorkPrices prices{1, 0.01, 0.01, 0};
+    const std::vector<Step> motion = {motion_step(test_range, 0, 0)};
+    const std::vector<Step> shapes = {shape_step(0, 1000, 0, 0), shape_step(1, 0, 800, 2), shape_step(2, 0, 400, 4)};
+    const Forecast forecast{100, motion, shapes};
+    const Prices prices{1, {0, 0.01, 0.01, 0}};
     const Plan middle = least_loss_plan(forecast, test_range, prices, 1 + 6);
     EXPECT_NEAR(middle.loss_px, 3, rounding);
     EXPECT_NEAR(middle.size, std::sqrt(2), rounding) << "logarithms over logarithms";
-    EXPECT_NEAR(middle.points, std::sqrt(800 * 400), 1e-6);
+    EXPECT_NEAR(middle[WorkKind::point], std::sqrt(800 * 400), 1e-6);
     const Plan above = least_loss_plan(forecast, test_range, prices, 1 + 9);
     EXPECT_EQ(above.size, 1) << "no splat is between none and the finest";
-    EXPECT_EQ(above.triangles, 0);
+    EXPECT_EQ(above[WorkKind::triangle], 0);
 }
 
 TEST(LeastLoss, ABudgetBetweenTwoDistancesIsMetBetweenThem) {
-    const std::vector<MotionStep> motion = {
-        {std::numeric_limits<double>::infinity(), 1000, 0}, {120, 600, 1}, {60, 200, 3}};
-    const std::vector<SplatStep> splats = {{0, 0, 0, 0}};
-    const Forecast forecast{1000, motion, splats};
-    const WorkPrices prices{2, 0, 0, 0.01};
+    const std::vector<Step> motion = {motion_step(std::numeric_limits<double>::infinity(), 1000, 0),
+                                      motion_step(120, 600, 1), motion_step(60, 200, 3)};
+    const std::vector<Step> shapes = {shape_step(0, 0, 0, 0)};
+    const Forecast forecast{1000, motion, shapes};
+    const Prices prices{2, {0, 0, 0, 0.01}};
     const Plan low = least_loss_plan(forecast, test_range, prices, 2 + 4);
     EXPECT_NEAR(low.distance, 90, rounding);
-    EXPECT_NEAR(low.motion_updates, 400, rounding);
+    EXPECT_NEAR(low[WorkKind::motion_update], 400, rounding);
     EXPECT_NEAR(low.loss_px, 2, rounding);
     const Plan high = least_loss_plan(forecast, test_range, prices, 2 + 8);
     EXPECT_NEAR(high.distance, 160, rounding) << "everybody moving is D = L";
@@ -125,12 +128,13 @@ TEST(PlanAt, IsTheStepAtAStepAndTheEndBeyondTheEnds) {
     for (int trial = 0; trial < 300; ++trial) {
         const Steps steps(random);
         const Forecast forecast = steps.forecast();
-        for (const MotionStep& m : steps.motion) {
-            for (const SplatStep& s : steps.splats) {
-                const Plan plan = plan_at(forecast, test_range, std::min(m.distance, test_range), s.size);
-                ASSERT_NEAR(plan.motion_updates, static_cast<double>(m.updates), rounding * 1e4);
-                ASSERT_NEAR(plan.triangles, static_cast<double>(s.triangles), rounding * 1e6);
-                ASSERT_NEAR(plan.points, static_cast<double>(s.points), rounding * 1e6);
+        for (const Step& m : steps.motion) {
+            for (const Step& s : steps.shapes) {
+                const Plan plan = plan_at(forecast, test_range, std::min(m.setting, test_range), s.setting);
+                ASSERT_NEAR(plan[WorkKind::motion_update], static_cast<double>(m.work[WorkKind::motion_update]),
+                            rounding * 1e4);
+                ASSERT_NEAR(plan[WorkKind::triangle], static_cast<double>(s.work[WorkKind::triangle]), rounding * 1e6);
+                ASSERT_NEAR(plan[WorkKind::point], static_cast<double>(s.work[WorkKind::point]), rounding * 1e6);
                 ASSERT_NEAR(plan.loss_px, m.loss_px + s.loss_px, rounding);
             }
         }
@@ -148,8 +152,8 @@ TEST(PlanAt, GivesBackEveryPlanOfLeastLoss) {
         const Plan again = plan_at(steps.forecast(), test_range, plan.distance, plan.size);
         // Sizes and counts lie on curves through both ends; the way back is as straight as a quarter octave is.
         ASSERT_NEAR(again.loss_px, plan.loss_px, 0.02 * (1 + plan.loss_px)) << trial;
-        ASSERT_NEAR(again.points, plan.points, 0.01 * plan.points + 1) << trial;
-        ASSERT_NEAR(again.motion_updates, plan.motion_updates, 1) << trial;
+        ASSERT_NEAR(again[WorkKind::point], plan[WorkKind::point], 0.01 * plan[WorkKind::point] + 1) << trial;
+        ASSERT_NEAR(again[WorkKind::motion_update], plan[WorkKind::motion_update], 1) << trial;
     }
 }
 
@@ -158,17 +162,17 @@ TEST(SlowerPlan, HasTheFirstStepWithNoMoreThanThatShareOfTheMotion) {
     for (int trial = 0; trial < 500; ++trial) {
         const Steps steps(random);
         const Forecast forecast = steps.forecast();
-        const Plan plan = plan_at(forecast, test_range, test_range, steps.splats.back().size);
+        const Plan plan = plan_at(forecast, test_range, test_range, steps.shapes.back().setting);
         for (const double share : {0.9, 0.5, 0.1}) {
             const Plan slower = slower_plan(forecast, test_range, plan, share);
-            double expected = static_cast<double>(steps.motion.back().updates);
-            for (const MotionStep& step : steps.motion) {
-                const auto updates = static_cast<double>(step.updates);
-                if (updates <= share * plan.motion_updates) expected = std::max(expected, updates);
+            double expected = static_cast<double>(steps.motion.back().work[WorkKind::motion_update]);
+            for (const Step& step : steps.motion) {
+                const auto updates = static_cast<double>(step.work[WorkKind::motion_update]);
+                if (updates <= share * plan[WorkKind::motion_update]) expected = std::max(expected, updates);
             }
-            ASSERT_EQ(slower.motion_updates, expected) << trial;
+            ASSERT_EQ(slower[WorkKind::motion_update], expected) << trial;
             ASSERT_EQ(slower.size, plan.size);
-            ASSERT_EQ(slower.points, plan.points);
+            ASSERT_EQ(slower[WorkKind::point], plan[WorkKind::point]);
         }
     }
 }

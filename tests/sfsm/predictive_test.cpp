@@ -10,6 +10,7 @@
 
 #include "sfsm/detail.h"
 #include "tests/sfsm/simulation.h"
+#include "tests/sfsm/steps.h"
 
 namespace sfsm {
 namespace {
@@ -238,12 +239,9 @@ TEST(PredictiveLaw, LateTimesAreOfTheirOwnRange) {
 
 // A view of people whose motion and shapes can be thinned, and a renderer with prices.
 struct Scene {
-    struct Prices {
-        double frame = 2, person = 0, triangle = 1e-6, point = 4e-7, update = 2e-4;
-    } prices;
+    Prices prices{2, {0, 1e-6, 4e-7, 2e-4}};
     double people = 10'000, triangles_each = 1000, points_each = 1500, farness = 2;
-    std::vector<MotionStep> motion;
-    std::vector<SplatStep> splats;
+    std::vector<Step> motion, shapes;
     Forecast forecast;
     double drawn = 1;  // points and triangles, for each that is foreseen
 
@@ -253,35 +251,31 @@ struct Scene {
     }
     void count() {
         motion.clear();
-        splats.clear();
+        shapes.clear();
         for (int i = 0; i <= 12; ++i) {
             const double share = 1 - i / 12.5;
             const double distance = i == 0 ? std::numeric_limits<double>::infinity() : share * test_range;
-            motion.push_back({distance, std::llround(updates(share)), (1 - share) * 0.3});
+            motion.push_back(motion_step(distance, std::llround(updates(share)), (1 - share) * 0.3));
         }
-        splats.push_back({0, std::llround(people * triangles_each), 0, 0});
+        shapes.push_back(shape_step(0, std::llround(people * triangles_each), 0, 0));
         for (int i = 0; i <= 24; ++i) {
             const double size = 0.5 * std::exp2(i / 4.0);
-            splats.push_back({size, 0, std::llround(people * points_each / size), 0.5 * size});
+            shapes.push_back(shape_step(size, 0, std::llround(people * points_each / size), 0.5 * size));
         }
-        forecast = {std::llround(people), motion, splats};
+        forecast = {std::llround(people), motion, shapes};
     }
     Work work(const Decision& decision) const {
         const double share =
             decision.state == State::original ? 1 : std::min(1.0, decision.motion_distance / test_range);
         Work work{std::llround(people), 0, 0, std::llround(updates(share))};
         if (decision.state == State::points) {
-            work.points = std::llround(drawn * people * points_each / decision.splat_size);
+            work[WorkKind::point] = std::llround(drawn * people * points_each / decision.splat_size);
         } else {
-            work.triangles = std::llround(drawn * people * triangles_each);
+            work[WorkKind::triangle] = std::llround(drawn * people * triangles_each);
         }
         return work;
     }
-    double ms(const Work& work) const {
-        return prices.frame + prices.person * static_cast<double>(work.people) +
-               prices.triangle * static_cast<double>(work.triangles) + prices.point * static_cast<double>(work.points) +
-               prices.update * static_cast<double>(work.motion_updates);
-    }
+    double ms(const Work& work) const { return cost_of(work, prices); }
 };
 
 struct ForecastLoop {
@@ -349,7 +343,7 @@ TEST(PredictiveForecast, ForecastsThatAreOffMeetTheTargetToo) {
 // The paper's first experiment: 20,000 people, most of the time is motion.
 TEST(PredictiveForecast, ThePapersTargetStepsAreMetOnTheirFirstFrame) {
     Scene scene;
-    scene.prices = {44, 0, 8.6e-6, 1.16e-6, 0.0382};
+    scene.prices = {44, {0, 8.6e-6, 1.16e-6, 0.0382}};
     scene.people = 20'000;
     scene.farness = 16;
     scene.count();
@@ -373,7 +367,7 @@ TEST(PredictiveForecast, ThePapersTargetStepsAreMetOnTheirFirstFrame) {
 // A software renderer: a second for the triangles, a tenth of that for points, and motion costs nothing.
 TEST(PredictiveForecast, LeavesSlowTrianglesAfterTwoTimesAndForGood) {
     Scene scene;
-    scene.prices = {20, 0, 4.75e-5, 1e-5, 0};
+    scene.prices = {20, {0, 4.75e-5, 1e-5, 0}};
     scene.people = 20'000;
     scene.count();
     constexpr int answers = 3;  // after the two that are waited for
@@ -413,7 +407,7 @@ TEST(PredictiveForecast, StatusTellsPricesAndWhatToExpect) {
     const Status& status = law.status();
     EXPECT_EQ(status.decision, rows.back().decision);
     EXPECT_NEAR(status.predicted_ms, target_ms, 0.05 * target_ms);
-    EXPECT_NEAR(status.price_ms[static_cast<std::size_t>(Price::point)], 4e-7, 1e-7);
+    EXPECT_NEAR(status.price_ms[WorkKind::point], 4e-7, 1e-7);
     EXPECT_GT(status.uncertainty, 0);
     EXPECT_LT(status.uncertainty, 0.05);
     EXPECT_NEAR(status.noise, 0.01, 0.005);
@@ -436,7 +430,7 @@ TEST(PredictiveForecast, ForecastsThatAreOffAreMendedWhileDecisionsChange) {
 
 TEST(PredictiveForecast, NobodyMovesBeyondARangeThatHasShrunk) {
     Scene scene;
-    scene.prices = {44, 0, 8.6e-6, 1.16e-6, 0.0382};
+    scene.prices = {44, {0, 8.6e-6, 1.16e-6, 0.0382}};
     scene.people = 20'000;
     scene.farness = 16;
     scene.count();
@@ -455,10 +449,10 @@ TEST(PredictiveForecast, NobodyMovesBeyondARangeThatHasShrunk) {
 // Two views of the same work, of which the second loses its looks where the first did not.
 TEST(PredictiveForecast, ABetterDecisionOfEqualTimeIsTaken) {
     Scene before = scene_of(20'000), after = before;
-    for (MotionStep& step : before.motion) step.loss_px *= 0.01;
-    for (MotionStep& step : after.motion) step.loss_px *= 100;
-    before.forecast = {before.forecast.people, before.motion, before.splats};
-    after.forecast = {after.forecast.people, after.motion, after.splats};
+    for (Step& step : before.motion) step.loss_px *= 0.01;
+    for (Step& step : after.motion) step.loss_px *= 100;
+    before.forecast = {before.forecast.people, before.motion, before.shapes};
+    after.forecast = {after.forecast.people, after.motion, after.shapes};
     PredictiveLaw law;
     const auto rows =
         run(law, ForecastLoop{[&](std::int64_t frame) -> const Scene& { return frame < 300 ? before : after; },
@@ -466,10 +460,9 @@ TEST(PredictiveForecast, ABetterDecisionOfEqualTimeIsTaken) {
     const auto loss = [&](const Decision& d, const Scene& scene) {
         return plan_at(scene.forecast, test_range, std::min(d.motion_distance, test_range), d.splat_size).loss_px;
     };
-    const WorkPrices prices{before.prices.frame, before.prices.triangle, before.prices.point, before.prices.update};
     for (const std::size_t frame : {299u, 305u}) {
         const Scene& scene = frame < 300 ? before : after;
-        const double least = least_loss_plan(scene.forecast, test_range, prices, target_ms).loss_px;
+        const double least = least_loss_plan(scene.forecast, test_range, before.prices, target_ms).loss_px;
         EXPECT_LE(loss(rows[frame].decision, scene), 1.25 * least) << frame;
         EXPECT_NEAR(rows[frame].frame_ms, target_ms, 0.05 * target_ms) << frame;
     }
@@ -547,12 +540,12 @@ TEST(PredictiveLaw, NoInputMakesADecisionLeaveItsRange) {
         std::mt19937_64 random(seed);
         PredictiveLaw law;
         for (int i = 0; i < 500; ++i) {
-            std::vector<MotionStep> motion(random() % 6);
-            for (MotionStep& step : motion) step = {any_number(random), any_count(random), any_number(random)};
-            std::vector<SplatStep> splats(random() % 6);
-            for (SplatStep& step : splats)
-                step = {any_number(random), any_count(random), any_count(random), any_number(random)};
-            const Forecast forecast{any_count(random), motion, splats};
+            std::vector<Step> motion(random() % 6);
+            for (Step& step : motion) step = {any_number(random), Work{0, 0, 0, any_count(random)}, any_number(random)};
+            std::vector<Step> shapes(random() % 6);
+            for (Step& step : shapes)
+                step = {any_number(random), Work{0, any_count(random), any_count(random)}, any_number(random)};
+            const Forecast forecast{any_count(random), motion, shapes};
             const FrameSample sample{any_count(random),
                                      any_number(random),
                                      random() % 2 ? law.status().decision : any_decision(random),

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "tests/sfsm/simulation.h"
+#include "tests/sfsm/steps.h"
 
 namespace sfsm {
 namespace {
@@ -53,13 +54,11 @@ TraceRow any_row(std::mt19937_64& random, std::int64_t frame) {
     row.decision.motion_distance = uniform(random, 1e-3, 1e3);
     row.decision.splat_size = uniform(random, 0, max_splat_size);
     if (random() % 4 == 0) row.decision = {};
-    for (std::int64_t* count : {&row.work.people, &row.work.triangles, &row.work.points, &row.work.motion_updates}) {
-        *count = static_cast<std::int64_t>(random() >> (1 + random() % 63));
-    }
+    for (std::int64_t& count : row.work.counts) count = static_cast<std::int64_t>(random() >> (1 + random() % 63));
     for (std::uint64_t steps = random() % 3; steps > 0; --steps) {
-        row.motion.push_back({uniform(random, 0, 1e3), any_step_count(random), uniform(random, 0, 9)});
-        row.splats.push_back(
-            {uniform(random, 0, 32), any_step_count(random), any_step_count(random), uniform(random, 0, 9)});
+        row.motion.push_back({uniform(random, 0, 1e3), Work{0, 0, 0, any_step_count(random)}, uniform(random, 0, 9)});
+        row.shapes.push_back(
+            {uniform(random, 0, 32), Work{0, any_step_count(random), any_step_count(random)}, uniform(random, 0, 9)});
     }
     return row;
 }
@@ -80,7 +79,7 @@ TEST(Trace, EveryRowReadsBackToTheSameBits) {
         EXPECT_EQ(a.decision, b.decision);
         EXPECT_EQ(a.work, b.work);
         EXPECT_EQ(a.motion, b.motion);
-        EXPECT_EQ(a.splats, b.splats);
+        EXPECT_EQ(a.shapes, b.shapes);
         EXPECT_TRUE(same_bits(a.target_ms, b.target_ms) && same_bits(a.frame_ms, b.frame_ms) &&
                     same_bits(a.cpu_ms, b.cpu_ms) && same_bits(a.gpu_ms, b.gpu_ms) && same_bits(a.range, b.range) &&
                     same_bits(a.predicted_ms, b.predicted_ms))
@@ -152,9 +151,9 @@ TEST(Trace, CountsOfStepsThatNoDoubleTellsApartAreTheLargestThatOneDoes) {
           std::pair{"1e300", largest}, std::pair{"inf", largest}}) {
         const std::string n = text;
         const TraceRow read_row = read(wide + row + ",inf:" + n + ":0,0:" + n + ":" + n + ":0\n").rows.at(0);
-        EXPECT_EQ(read_row.motion[0].updates, count) << text;
-        EXPECT_EQ(read_row.splats[0].triangles, count) << text;
-        EXPECT_EQ(read_row.splats[0].points, count) << text;
+        EXPECT_EQ(read_row.motion[0].work[WorkKind::motion_update], count) << text;
+        EXPECT_EQ(read_row.shapes[0].work[WorkKind::triangle], count) << text;
+        EXPECT_EQ(read_row.shapes[0].work[WorkKind::point], count) << text;
     }
 }
 
@@ -162,8 +161,8 @@ TEST(Trace, EveryFieldOfAStepHasItsPlace) {
     const std::string wide = std::string(header, std::strlen(header) - 1) + ",splat_steps,predicted_ms,motion_steps\n";
     const std::string row = std::string(good_row, std::strlen(good_row) - 1);
     const TraceRow read_row = read(wide + row + ",0:900:1:2.5 4:800:7:8,12.5,inf:5:0.25 3:2:1.5\n").rows.at(0);
-    EXPECT_EQ(read_row.motion, (std::vector<MotionStep>{{INFINITY, 5, 0.25}, {3, 2, 1.5}}));
-    EXPECT_EQ(read_row.splats, (std::vector<SplatStep>{{0, 900, 1, 2.5}, {4, 800, 7, 8}}));
+    EXPECT_EQ(read_row.motion, (std::vector<Step>{motion_step(INFINITY, 5, 0.25), motion_step(3, 2, 1.5)}));
+    EXPECT_EQ(read_row.shapes, (std::vector<Step>{shape_step(0, 900, 1, 2.5), shape_step(4, 800, 7, 8)}));
     EXPECT_EQ(read_row.predicted_ms, 12.5);
 }
 

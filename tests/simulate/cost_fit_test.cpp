@@ -18,7 +18,7 @@ namespace sfsm::simulate {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr Prices true_prices{.frame = 2.5, .person = 2e-4, .triangle = 1.5e-6, .point = 4e-6, .update = 6e-4};
+constexpr Prices true_prices{2.5, {2e-4, 1.5e-6, 4e-6, 6e-4}};
 
 // A run through all three states in which everything changes by itself.
 std::vector<TraceRow> run_of(int frames, const Prices& prices) {
@@ -32,9 +32,9 @@ std::vector<TraceRow> run_of(int frames, const Prices& prices) {
         row.frame = static_cast<std::int64_t>(i);
         row.target_ms = 16;
         row.range = 200;
-        row.work.people = 5000 + upto(15000);
-        row.work.motion_updates = upto(static_cast<double>(row.work.people));
-        (i % 3 == 2 ? row.work.points : row.work.triangles) = 100'000 + upto(5e6);
+        row.work[WorkKind::person] = 5000 + upto(15000);
+        row.work[WorkKind::motion_update] = upto(static_cast<double>(row.work[WorkKind::person]));
+        (i % 3 == 2 ? row.work[WorkKind::point] : row.work[WorkKind::triangle]) = 100'000 + upto(5e6);
         row.frame_ms = cost_of(row.work, prices);
     }
     return rows;
@@ -49,10 +49,11 @@ void add_noise(std::vector<TraceRow>& rows, double sigma, double hitches) {
 
 void expect_prices(const Prices& found, const Prices& expected, double relative) {
     EXPECT_NEAR(found.frame, expected.frame, relative * expected.frame);
-    EXPECT_NEAR(found.person, expected.person, relative * expected.person);
-    EXPECT_NEAR(found.triangle, expected.triangle, relative * expected.triangle);
-    EXPECT_NEAR(found.point, expected.point, relative * expected.point);
-    EXPECT_NEAR(found.update, expected.update, relative * expected.update);
+    EXPECT_NEAR(found[WorkKind::person], expected[WorkKind::person], relative * expected[WorkKind::person]);
+    EXPECT_NEAR(found[WorkKind::triangle], expected[WorkKind::triangle], relative * expected[WorkKind::triangle]);
+    EXPECT_NEAR(found[WorkKind::point], expected[WorkKind::point], relative * expected[WorkKind::point]);
+    EXPECT_NEAR(found[WorkKind::motion_update], expected[WorkKind::motion_update],
+                relative * expected[WorkKind::motion_update]);
 }
 
 double model_ms(const CostFit& fit, const TraceRow& row) {
@@ -82,10 +83,10 @@ TEST(CostFit, PercentilesAreOfResidualsRelativeToTheModel) {
 
 TEST(CostFit, RecoversFreeWorkAsFree) {
     Prices prices = true_prices;
-    prices.update = 0;
+    prices[WorkKind::motion_update] = 0;
     const CostFit fit = fit_costs(run_of(200, prices));
-    EXPECT_NEAR(fit.prices.update, 0, 1e-12);
-    EXPECT_NEAR(fit.prices.triangle, prices.triangle, 1e-9 * prices.triangle);
+    EXPECT_NEAR(fit.prices[WorkKind::motion_update], 0, 1e-12);
+    EXPECT_NEAR(fit.prices[WorkKind::triangle], prices[WorkKind::triangle], 1e-9 * prices[WorkKind::triangle]);
 }
 
 TEST(CostFit, HitchesBendNothingWhereTheRestIsExact) {
@@ -102,11 +103,13 @@ TEST(CostFit, RecoversThePricesWithinTheirSigmasFromNoiseAndHitches) {
     expect_prices(fit.prices, true_prices, 0.05);
     constexpr double sigmas = 3.5;
     EXPECT_NEAR(fit.prices.frame, true_prices.frame, sigmas * fit.sigma.frame);
-    EXPECT_NEAR(fit.prices.person, true_prices.person, sigmas * fit.sigma.person);
-    EXPECT_NEAR(fit.prices.triangle, true_prices.triangle, sigmas * fit.sigma.triangle);
-    EXPECT_NEAR(fit.prices.point, true_prices.point, sigmas * fit.sigma.point);
-    EXPECT_NEAR(fit.prices.update, true_prices.update, sigmas * fit.sigma.update);
-    EXPECT_LT(fit.sigma.triangle, 0.01 * true_prices.triangle);
+    EXPECT_NEAR(fit.prices[WorkKind::person], true_prices[WorkKind::person], sigmas * fit.sigma[WorkKind::person]);
+    EXPECT_NEAR(fit.prices[WorkKind::triangle], true_prices[WorkKind::triangle],
+                sigmas * fit.sigma[WorkKind::triangle]);
+    EXPECT_NEAR(fit.prices[WorkKind::point], true_prices[WorkKind::point], sigmas * fit.sigma[WorkKind::point]);
+    EXPECT_NEAR(fit.prices[WorkKind::motion_update], true_prices[WorkKind::motion_update],
+                sigmas * fit.sigma[WorkKind::motion_update]);
+    EXPECT_LT(fit.sigma[WorkKind::triangle], 0.01 * true_prices[WorkKind::triangle]);
     // Percentiles of normal noise of 3 %.
     EXPECT_NEAR(fit.residual[1], -0.049, 0.006);
     EXPECT_NEAR(fit.residual[3], 0, 0.003);
@@ -123,8 +126,9 @@ TEST(CostFit, ClippedResidualsBalanceAlongEveryPrice) {
     std::nth_element(sizes.begin(), sizes.begin() + 500, sizes.end());
     const double sigma = 1.4826 * sizes[500], clip = 1.345 * sigma;
     const auto counts = [](const Work& work) {
-        return std::vector<double>{1, static_cast<double>(work.people), static_cast<double>(work.triangles),
-                                   static_cast<double>(work.points), static_cast<double>(work.motion_updates)};
+        std::vector<double> all{1};
+        for (const std::int64_t count : work.counts) all.push_back(static_cast<double>(count));
+        return all;
     };
     for (std::size_t kind = 0; kind < 5; ++kind) {
         double slope = 0, squares = 0;
@@ -142,40 +146,42 @@ TEST(CostFit, NoPriceIsNegative) {
     // The more is updated, the faster: nothing a price can be.
     std::vector<TraceRow> rows = run_of(300, true_prices);
     Prices prices = true_prices;
-    prices.update = 0;
+    prices[WorkKind::motion_update] = 0;
     for (TraceRow& row : rows) {
         const double all_ms = cost_of(row.work, prices);
-        row.frame_ms = all_ms * (1 - 0.2 * static_cast<double>(row.work.motion_updates) / 20000);
+        row.frame_ms = all_ms * (1 - 0.2 * static_cast<double>(row.work[WorkKind::motion_update]) / 20000);
     }
     const CostFit fit = fit_costs(rows);
-    EXPECT_EQ(fit.prices.update, 0);
-    for (const double price : {fit.prices.frame, fit.prices.person, fit.prices.triangle, fit.prices.point})
+    EXPECT_EQ(fit.prices[WorkKind::motion_update], 0);
+    for (const double price :
+         {fit.prices.frame, fit.prices[WorkKind::person], fit.prices[WorkKind::triangle], fit.prices[WorkKind::point]})
         EXPECT_GE(price, 0);
 }
 
 TEST(CostFit, SharesTheTimeOfAConstantCrowdBetweenItAndTheFrame) {
     std::vector<TraceRow> rows = run_of(200, true_prices);
     for (TraceRow& row : rows) {
-        row.work.people = 20000;
+        row.work[WorkKind::person] = 20000;
         row.frame_ms = cost_of(row.work, true_prices);
     }
     const CostFit fit = fit_costs(rows);
     EXPECT_GT(fit.prices.frame, 0);
-    EXPECT_GT(fit.prices.person, 0);
-    EXPECT_NEAR(fit.prices.frame + 20000 * fit.prices.person, true_prices.frame + 20000 * true_prices.person, 1e-8);
-    EXPECT_NEAR(fit.prices.point, true_prices.point, 1e-9 * true_prices.point);
+    EXPECT_GT(fit.prices[WorkKind::person], 0);
+    EXPECT_NEAR(fit.prices.frame + 20000 * fit.prices[WorkKind::person],
+                true_prices.frame + 20000 * true_prices[WorkKind::person], 1e-8);
+    EXPECT_NEAR(fit.prices[WorkKind::point], true_prices[WorkKind::point], 1e-9 * true_prices[WorkKind::point]);
     EXPECT_NEAR(fit.r2, 1, 1e-12);
 }
 
 TEST(CostFit, GuessesThePriceOfTrianglesNeverDrawnFromThatOfPoints) {
     std::vector<TraceRow> rows = run_of(600, true_prices);
-    std::erase_if(rows, [](const TraceRow& row) { return row.work.triangles > 0; });
+    std::erase_if(rows, [](const TraceRow& row) { return row.work[WorkKind::triangle] > 0; });
     add_noise(rows, 0.02, 0);
     const CostFit fit = fit_costs(rows);
-    EXPECT_NEAR(fit.prices.point, true_prices.point, 0.05 * true_prices.point);
-    EXPECT_GT(fit.prices.triangle, 0.25 * fit.prices.point);
-    EXPECT_LT(fit.prices.triangle, 1.0 * fit.prices.point);
-    EXPECT_GT(fit.sigma.triangle, 0.5 * fit.prices.triangle) << "it says that this is a guess";
+    EXPECT_NEAR(fit.prices[WorkKind::point], true_prices[WorkKind::point], 0.05 * true_prices[WorkKind::point]);
+    EXPECT_GT(fit.prices[WorkKind::triangle], 0.25 * fit.prices[WorkKind::point]);
+    EXPECT_LT(fit.prices[WorkKind::triangle], 1.0 * fit.prices[WorkKind::point]);
+    EXPECT_GT(fit.sigma[WorkKind::triangle], 0.5 * fit.prices[WorkKind::triangle]) << "it says that this is a guess";
 }
 
 TEST(CostFit, ARunInWhichNothingChangesIsSharedByBelief) {
@@ -186,8 +192,8 @@ TEST(CostFit, ARunInWhichNothingChangesIsSharedByBelief) {
     }
     const CostFit fit = fit_costs(rows);
     EXPECT_NEAR(model_ms(fit, rows.front()), 40, 1e-6);
-    EXPECT_GT(fit.prices.triangle, 0);
-    EXPECT_GT(fit.prices.update, fit.prices.triangle);
+    EXPECT_GT(fit.prices[WorkKind::triangle], 0);
+    EXPECT_GT(fit.prices[WorkKind::motion_update], fit.prices[WorkKind::triangle]);
     EXPECT_EQ(fit.r2, 0) << "there is nothing to explain";
 }
 
@@ -217,10 +223,10 @@ TEST(CostFit, HugeCountsGiveFinitePrices) {
     std::vector<TraceRow> rows = run_of(100, true_prices);
     constexpr auto most = std::numeric_limits<std::int64_t>::max();
     rows[10].work = {most, most, most, most};
-    rows[20].work.motion_updates = std::numeric_limits<std::int64_t>::min();
+    rows[20].work[WorkKind::motion_update] = std::numeric_limits<std::int64_t>::min();
     const CostFit fit = fit_costs(rows);
-    for (const double price :
-         {fit.prices.frame, fit.prices.person, fit.prices.triangle, fit.prices.point, fit.prices.update, fit.r2}) {
+    for (const double price : {fit.prices.frame, fit.prices[WorkKind::person], fit.prices[WorkKind::triangle],
+                               fit.prices[WorkKind::point], fit.prices[WorkKind::motion_update], fit.r2}) {
         EXPECT_TRUE(std::isfinite(price));
     }
 }
@@ -230,7 +236,8 @@ TEST(CostFit, TheSameRowsGiveTheSameBits) {
     add_noise(rows, 0.03, 0.01);
     const CostFit a = fit_costs(rows), b = fit_costs(rows);
     EXPECT_EQ(std::bit_cast<std::uint64_t>(a.prices.frame), std::bit_cast<std::uint64_t>(b.prices.frame));
-    EXPECT_EQ(std::bit_cast<std::uint64_t>(a.prices.update), std::bit_cast<std::uint64_t>(b.prices.update));
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(a.prices[WorkKind::motion_update]),
+              std::bit_cast<std::uint64_t>(b.prices[WorkKind::motion_update]));
     EXPECT_EQ(a.residual, b.residual);
 }
 

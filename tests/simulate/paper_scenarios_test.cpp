@@ -25,8 +25,8 @@ TEST(Paper1, StatesTakeTheReportedTimes) {
     const Scenario scenario = make_scenario("paper-1");
     const Plant& plant = *scenario.plant;
     const double range = plant.range(0);
-    EXPECT_EQ(plant.work(0, {}).people, 20000);
-    EXPECT_EQ(plant.work(0, {}).triangles, 20'000'000);
+    EXPECT_EQ(plant.work(0, {})[WorkKind::person], 20000);
+    EXPECT_EQ(plant.work(0, {})[WorkKind::triangle], 20'000'000);
     EXPECT_NEAR(plant.cost_ms(0, {}), 980, calibration * 980) << "1.0 fps";
     EXPECT_NEAR(plant.cost_ms(0, {State::slowed, 0.75 * range, 0}), 300, calibration * 300) << "3.3 fps";
     // The two splat sizes that the relay of eq. 7 swings between are on both sides of the target, and within 15 ms.

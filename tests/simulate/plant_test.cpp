@@ -29,7 +29,7 @@ constexpr View some_view{.people = 20000,
                          .triangles_each = 1000,
                          .points_each = 500,
                          .surface_px = 0.1};
-constexpr Prices some_prices{.frame = 2, .person = 1e-4, .triangle = 1e-6, .point = 1e-6, .update = 5e-4};
+constexpr Prices some_prices{2, {1e-4, 1e-6, 1e-6, 5e-4}};
 
 WorkPlant work_plant(double load = 1) {
     return WorkPlant(
@@ -90,10 +90,11 @@ TEST(WorkPlant, CostsPricesTimesWork) {
     const WorkPlant plant = work_plant(1.5);
     for (const Decision& decision : {Decision{}, Decision{State::slowed, 200, 0}, Decision{State::points, 100, 4}}) {
         const Work work = plant.work(0, decision);
-        const double ms = some_prices.frame + some_prices.person * static_cast<double>(work.people) +
-                          some_prices.triangle * static_cast<double>(work.triangles) +
-                          some_prices.point * static_cast<double>(work.points) +
-                          some_prices.update * static_cast<double>(work.motion_updates);
+        const double ms = some_prices.frame +
+                          some_prices[WorkKind::person] * static_cast<double>(work[WorkKind::person]) +
+                          some_prices[WorkKind::triangle] * static_cast<double>(work[WorkKind::triangle]) +
+                          some_prices[WorkKind::point] * static_cast<double>(work[WorkKind::point]) +
+                          some_prices[WorkKind::motion_update] * static_cast<double>(work[WorkKind::motion_update]);
         EXPECT_NEAR(plant.cost_ms(0, decision), 1.5 * ms, rounding * ms);
     }
 }
@@ -109,14 +110,14 @@ TEST(WorkPlant, WhoMovesInEveryFrameLosesNothing) {
 TEST(WorkPlant, ForecastsTheWorkOfEveryPairOfSteps) {
     const WorkPlant plant = work_plant();
     const Forecast& forecast = *plant.forecast(0);
-    for (const MotionStep& motion : forecast.motion) {
-        for (const SplatStep& splat : forecast.splats) {
-            Decision decision{splat.size > 0 ? State::points : State::slowed, motion.distance, splat.size};
+    for (const Step& motion : forecast.motion) {
+        for (const Step& splat : forecast.shapes) {
+            Decision decision{splat.setting > 0 ? State::points : State::slowed, motion.setting, splat.setting};
             const Work work = plant.work(0, decision);
-            EXPECT_EQ(work.people, forecast.people);
-            EXPECT_EQ(work.motion_updates, motion.updates);
-            EXPECT_EQ(work.triangles, splat.triangles);
-            EXPECT_EQ(work.points, splat.points);
+            EXPECT_EQ(work[WorkKind::person], forecast.people);
+            EXPECT_EQ(work[WorkKind::motion_update], motion.work[WorkKind::motion_update]);
+            EXPECT_EQ(work[WorkKind::triangle], splat.work[WorkKind::triangle]);
+            EXPECT_EQ(work[WorkKind::point], splat.work[WorkKind::point]);
             EXPECT_NEAR(plant.detail(0, decision), 1 / (1 + motion.loss_px + splat.loss_px), rounding);
         }
     }
@@ -129,24 +130,24 @@ TEST(WorkPlant, ForecastsRunFromNoLossToTheMost) {
             const Forecast* forecast = scenario.plant->forecast(frame);
             if (!forecast) continue;
             ASSERT_GE(forecast->motion.size(), 2u);
-            ASSERT_GE(forecast->splats.size(), 2u);
+            ASSERT_GE(forecast->shapes.size(), 2u);
             EXPECT_EQ(forecast->motion.front().loss_px, 0);
-            EXPECT_EQ(forecast->motion.front().updates, forecast->people);
-            EXPECT_EQ(forecast->splats.front().loss_px, 0);
-            EXPECT_EQ(forecast->splats.front().points, 0);
+            EXPECT_EQ(forecast->motion.front().work[WorkKind::motion_update], forecast->people);
+            EXPECT_EQ(forecast->shapes.front().loss_px, 0);
+            EXPECT_EQ(forecast->shapes.front().work[WorkKind::point], 0);
             for (std::size_t i = 1; i < forecast->motion.size(); ++i) {
-                const MotionStep &finer = forecast->motion[i - 1], &coarser = forecast->motion[i];
-                EXPECT_LT(coarser.distance, finer.distance);
-                EXPECT_LE(coarser.updates, finer.updates);
+                const Step &finer = forecast->motion[i - 1], &coarser = forecast->motion[i];
+                EXPECT_LT(coarser.setting, finer.setting);
+                EXPECT_LE(coarser.work[WorkKind::motion_update], finer.work[WorkKind::motion_update]);
                 EXPECT_GE(coarser.loss_px, finer.loss_px);
             }
-            for (std::size_t i = 1; i < forecast->splats.size(); ++i) {
-                const SplatStep &finer = forecast->splats[i - 1], &coarser = forecast->splats[i];
-                EXPECT_GT(coarser.size, finer.size);
-                EXPECT_LE(coarser.triangles, finer.triangles);
+            for (std::size_t i = 1; i < forecast->shapes.size(); ++i) {
+                const Step &finer = forecast->shapes[i - 1], &coarser = forecast->shapes[i];
+                EXPECT_GT(coarser.setting, finer.setting);
+                EXPECT_LE(coarser.work[WorkKind::triangle], finer.work[WorkKind::triangle]);
                 EXPECT_GE(coarser.loss_px, finer.loss_px);
                 if (i == 1) continue;  // from triangles to points
-                EXPECT_LE(coarser.points, finer.points);
+                EXPECT_LE(coarser.work[WorkKind::point], finer.work[WorkKind::point]);
             }
         }
     }

@@ -17,6 +17,7 @@
 #include "sfsm/simulate/course.h"
 #include "sfsm/simulate/metrics.h"
 #include "sfsm/simulate/noise.h"
+#include "sfsm/simulate/work_plant.h"
 
 namespace sfsm::simulate {
 namespace {
@@ -24,7 +25,7 @@ namespace {
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double rounding = 1e-12;
-constexpr Prices true_prices{.frame = 2, .person = 1e-4, .triangle = 1e-6, .point = 3e-6, .update = 5e-4};
+constexpr Prices true_prices{2, {1e-4, 1e-6, 3e-6, 5e-4}};
 
 // Roams so that all that a camera changes does change.
 std::vector<View> views() {
@@ -62,7 +63,7 @@ TraceRow row_of(const Plant& plant, std::int64_t frame, const Outcome& outcome) 
     row.work = plant.work(frame, outcome.decision);
     const Forecast& forecast = *plant.forecast(frame);
     row.motion.assign(forecast.motion.begin(), forecast.motion.end());
-    row.splats.assign(forecast.splats.begin(), forecast.splats.end());
+    row.shapes.assign(forecast.shapes.begin(), forecast.shapes.end());
     return row;
 }
 
@@ -134,8 +135,8 @@ TEST(Recorded, OtherDecisionsTakeWhatTheRecordedRendererWouldHaveTaken) {
         // Recorded at a step, or the load would carry the interpolation.
         const auto step = static_cast<std::size_t>(frame % 12 + 1);
         Decision& decision = rows[i].decision;
-        if (decision.state != State::original) decision.motion_distance = rows[i].motion[step].distance;
-        if (decision.state == State::points) decision.splat_size = rows[i].splats[step].size;
+        if (decision.state != State::original) decision.motion_distance = rows[i].motion[step].setting;
+        if (decision.state == State::points) decision.splat_size = rows[i].shapes[step].setting;
         rows[i].work = truth.plant->work(frame, decision);
         rows[i].frame_ms = truth.plant->cost_ms(frame, decision);
     }
@@ -147,9 +148,10 @@ TEST(Recorded, OtherDecisionsTakeWhatTheRecordedRendererWouldHaveTaken) {
             return std::abs(scenario.plant->cost_ms(frame, decision) / truth.plant->cost_ms(frame, decision) - 1);
         };
         for (std::size_t m = 1; m < row.motion.size(); ++m) {
-            const double at = row.motion[m].distance;
-            const double between = 0.5 * (at + std::min(row.range, row.motion[m - 1].distance));
-            worst_at = std::max({worst_at, off({State::slowed, at, 0}), off({State::points, at, row.splats[9].size})});
+            const double at = row.motion[m].setting;
+            const double between = 0.5 * (at + std::min(row.range, row.motion[m - 1].setting));
+            worst_at =
+                std::max({worst_at, off({State::slowed, at, 0}), off({State::points, at, row.shapes[9].setting})});
             worst_between =
                 std::max({worst_between, off({State::slowed, between, 0}), off({State::points, between, 3})});
         }
@@ -167,10 +169,10 @@ TEST(Recorded, WithoutALoadOtherDecisionsTakeWhatTheyWouldHaveTaken) {
         const Forecast& forecast = *truth.plant->forecast(frame);
         const double range = truth.plant->range(frame);
         for (std::size_t m = 1; m < forecast.motion.size(); ++m) {
-            const double at = forecast.motion[m].distance;
-            const double between = 0.5 * (at + std::min(range, forecast.motion[m - 1].distance));
+            const double at = forecast.motion[m].setting;
+            const double between = 0.5 * (at + std::min(range, forecast.motion[m - 1].setting));
             for (const auto& [distance, worst] : {std::pair{at, &worst_at}, std::pair{between, &worst_between}}) {
-                const Decision decision{State::points, distance, forecast.splats[9].size};
+                const Decision decision{State::points, distance, forecast.shapes[9].setting};
                 const double off = scenario.plant->cost_ms(frame, decision) / truth.plant->cost_ms(frame, decision) - 1;
                 *worst = std::max(*worst, std::abs(off));
             }
@@ -190,8 +192,8 @@ TEST(Recorded, TellsTheLawWhatTheTraceTold) {
         const auto frame = static_cast<std::int64_t>(i);
         const Forecast& forecast = *scenario.plant->forecast(frame);
         EXPECT_TRUE(std::equal(forecast.motion.begin(), forecast.motion.end(), rows[i].motion.begin()));
-        EXPECT_TRUE(std::equal(forecast.splats.begin(), forecast.splats.end(), rows[i].splats.begin()));
-        EXPECT_EQ(forecast.people, rows[i].work.people);
+        EXPECT_TRUE(std::equal(forecast.shapes.begin(), forecast.shapes.end(), rows[i].shapes.begin()));
+        EXPECT_EQ(forecast.people, rows[i].work[WorkKind::person]);
         EXPECT_EQ(scenario.plant->range(frame), rows[i].range);
         EXPECT_EQ(scenario.target.at(frame), rows[i].target_ms);
     }
@@ -201,11 +203,12 @@ TEST(Recorded, WorkAndDetailAreTheForecastsAtItsSteps) {
     const std::vector<TraceRow> rows = trace_of_any_decisions(original());
     const Scenario scenario = recorded_scenario(rows, own);
     const TraceRow& row = rows[5];
-    for (const MotionStep& motion : row.motion) {
-        for (const SplatStep& splat : row.splats) {
-            const Decision decision{splat.size > 0 ? State::points : State::slowed, motion.distance, splat.size};
+    for (const Step& motion : row.motion) {
+        for (const Step& splat : row.shapes) {
+            const Decision decision{splat.setting > 0 ? State::points : State::slowed, motion.setting, splat.setting};
             EXPECT_EQ(scenario.plant->work(5, decision),
-                      (Work{row.work.people, splat.triangles, splat.points, motion.updates}));
+                      (Work{row.work[WorkKind::person], splat.work[WorkKind::triangle], splat.work[WorkKind::point],
+                            motion.work[WorkKind::motion_update]}));
             EXPECT_NEAR(scenario.plant->detail(5, decision), 1 / (1 + motion.loss_px + splat.loss_px), rounding);
         }
     }
@@ -290,7 +293,7 @@ TEST(Recorded, OwnRowsWithoutAForecastHaveTheOneBefore) {
     std::vector<TraceRow> rows = trace_of_any_decisions(original());
     for (const std::size_t i : {0U, 50U}) rows[i].motion.clear();
     std::reverse(rows[51].motion.begin(), rows[51].motion.end());
-    rows[52].splats[3].loss_px = infinity;
+    rows[52].shapes[3].loss_px = infinity;
     const Scenario scenario = recorded_scenario(rows, own);
     const Plant& plant = *scenario.plant;
     EXPECT_EQ(plant.forecast(0), plant.forecast(1));
@@ -411,13 +414,13 @@ TEST(Recorded, HostileRowsGiveFiniteCosts) {
                     row.motion.clear();
                     break;
                 case 6:
-                    row.splats.resize(random() % 3);
+                    row.shapes.resize(random() % 3);
                     break;
                 case 7:
-                    row.motion.assign(1, {number(), count(), number()});
+                    row.motion.assign(1, {number(), Work{0, 0, 0, count()}, number()});
                     break;
                 case 8:
-                    row.splats.assign(2, {number(), count(), count(), number()});
+                    row.shapes.assign(2, {number(), Work{0, count(), count()}, number()});
                     break;
                 case 9:
                     row.frame = count();

@@ -1,0 +1,21 @@
+// Steps of a forecast, number by number.
+#pragma once
+
+#include "sfsm/forecast.h"
+
+namespace sfsm {
+
+inline Step motion_step(double distance, std::int64_t updates, double loss_px) {
+    Step step{distance, {}, loss_px};
+    step.work[WorkKind::motion_update] = updates;
+    return step;
+}
+
+inline Step shape_step(double size, std::int64_t triangles, std::int64_t points, double loss_px) {
+    Step step{size, {}, loss_px};
+    step.work[WorkKind::triangle] = triangles;
+    step.work[WorkKind::point] = points;
+    return step;
+}
+
+}  // namespace sfsm

@@ -1,0 +1,67 @@
+#include "sfsm/work.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <set>
+
+#include "sfsm/prices.h"
+
+namespace sfsm {
+namespace {
+
+TEST(WorkTable, NamesAndColumnsAreEachKindsOwn) {
+    std::set<std::string_view> names, columns;
+    for (const WorkEntry& entry : work_table) {
+        names.insert(entry.name);
+        columns.insert(entry.column);
+    }
+    EXPECT_EQ(names.size(), work_kinds);
+    EXPECT_EQ(columns.size(), work_kinds);
+}
+
+TEST(WorkTable, EveryKindIsOnOneAxisAndPriorsAreInRange) {
+    EXPECT_EQ(work_on<WorkAxis::frame>.size() + work_on<WorkAxis::motion>.size() + work_on<WorkAxis::shape>.size(),
+              work_kinds);
+    for (const WorkEntry& entry : work_table) {
+        EXPECT_EQ(&entry_of(entry.kind), &entry);
+        EXPECT_GT(entry.prior.pieces, 0) << entry.name;
+        EXPECT_GT(entry.prior.spread, 0) << entry.name;
+        EXPECT_TRUE(entry.prior.least >= 0 && entry.prior.least < 1) << entry.name;
+        EXPECT_GT(entry.prior.fit_pieces, 0) << entry.name;
+        EXPECT_GT(entry.prior.fit_spread, 0) << entry.name;
+    }
+    EXPECT_EQ(entry_of(WorkKind::triangle).prior.pieces, 1) << "a piece is a triangle";
+}
+
+TEST(Work, AddsUpAndMultipliesKindByKind) {
+    Work work{1, 20, 300, 4000};
+    work += Work{5, 6, 7, 8};
+    EXPECT_EQ(work, (Work{6, 26, 307, 4008}));
+    EXPECT_EQ(work * 2, (Work{12, 52, 614, 8016}));
+    EXPECT_EQ(work[WorkKind::motion_update], 4008);
+}
+
+TEST(Work, OfAnAxisIsItsKindsAlone) {
+    const Work work{1, 20, 300, 4000};
+    EXPECT_EQ(only_on<WorkAxis::frame>(work), Work{1});
+    EXPECT_EQ(only_on<WorkAxis::shape>(work), (Work{0, 20, 300}));
+    EXPECT_EQ(only_on<WorkAxis::motion>(work), (Work{0, 0, 0, 4000}));
+}
+
+TEST(Counted, IsWithinWhatAFrameCanDraw) {
+    EXPECT_EQ(counted(-1), 0);
+    EXPECT_EQ(counted(1234567), 1234567);
+    EXPECT_EQ(counted(std::numeric_limits<std::int64_t>::max()), 1e15);
+    EXPECT_EQ(counted(std::numeric_limits<std::int64_t>::min()), 0);
+}
+
+TEST(Prices, TimesCountsAreTheCost) {
+    const Prices prices{10, {1, 0.5, 0.25, 2}};
+    EXPECT_EQ(cost_of({}, prices), 10);
+    EXPECT_EQ(cost_of({3, 4, 8, 1}, prices), 10 + 3 + 2 + 2 + 2);
+    EXPECT_EQ(cost_of({3, 4, 8, 1}, 2.0 * prices), 38);
+}
+
+}  // namespace
+}  // namespace sfsm
