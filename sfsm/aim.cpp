@@ -1,0 +1,32 @@
+#include "sfsm/aim.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sfsm {
+
+double Aim::aim_ms(const CostModel& model, double least_ms, double uncertainty) const {
+    const double headroom = std::min(options.headroom * model.noise(), options.most_headroom);
+    const double wanted_ms = target_ms * (1 - headroom);
+    if (least_ms > wanted_ms) return least_ms + options.worthwhile * (least_ms - wanted_ms);
+    return std::max(wanted_ms * std::exp(-options.caution * uncertainty), least_ms);
+}
+
+bool Aim::is_kept(const Prediction& prediction, double aim_ms) const {
+    const double band = std::max(options.band, options.band_sigmas * prediction.uncertainty);
+    return std::abs(prediction.log_ms - std::log(aim_ms)) <= band;
+}
+
+const char* Aim::reason_to_move(const Prediction& kept, double aim_ms, double least_ms) const {
+    if (least_ms > target_ms) return "out of reach: as fast as detail makes it";
+    return kept.log_ms > std::log(aim_ms) ? "would be slow: coarser" : "has time to spare: finer";
+}
+
+void Aim::believe(const Prediction& prediction, const CostModel& model) {
+    status.predicted_ms = std::exp(prediction.log_ms);
+    status.uncertainty = prediction.uncertainty;
+    status.noise = model.noise();
+    status.gain = model.gain();
+}
+
+}  // namespace sfsm

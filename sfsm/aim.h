@@ -1,0 +1,31 @@
+// What both ways of the predictive law share (by forecast and by axis): what they are asked for, which time they aim
+// at, when a prediction is near enough to it, and what they say of themselves.
+#pragma once
+
+#include "sfsm/controller.h"
+#include "sfsm/cost_model.h"
+#include "sfsm/predictive_options.h"
+
+namespace sfsm {
+
+struct Aim {
+    PredictiveOptions options;
+    double target_ms = 0;  // 0: none yet
+    double range = 0;      // L [m]; 0: none yet
+    Status status;
+
+    // The time [ms] that frames are aimed at: below the target for the noise, and lower by `caution` times the
+    // uncertainty. Where even the coarsest frame, `least_ms`, is too slow: as much above it as detail is worth.
+    double aim_ms(const CostModel& model, double least_ms, double uncertainty) const;
+
+    // Near enough to the aim to change nothing.
+    bool is_kept(const Prediction& prediction, double aim_ms) const;
+
+    // Status::reason for leaving what is predicted so.
+    const char* reason_to_move(const Prediction& kept, double aim_ms, double least_ms) const;
+
+    // Shows what is believed of the next frame.
+    void believe(const Prediction& prediction, const CostModel& model);
+};
+
+}  // namespace sfsm

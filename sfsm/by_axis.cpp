@@ -1,0 +1,101 @@
+#include "sfsm/by_axis.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sfsm/detail.h"
+
+namespace sfsm {
+namespace {
+
+// Believed at first: time grows in even steps of detail, to 1 + 1 / 0.3 = 4.3 times that of the coarsest.
+constexpr int detail_steps = 8;
+constexpr double frame_amount = 0.3;
+constexpr PriceBelief belief{1 + detail_steps, {1, 1, 1, 1, 1, 1, 1, 1, 1}, 0.7, {}};
+
+constexpr double much_over = 1.03;          // [target] at which a rise has failed
+constexpr double out_of_reach_band = 0.05;  // over the aim, relative
+
+Amounts amounts_of(double detail) {
+    Amounts amounts;
+    amounts.terms = 1 + detail_steps;
+    amounts.of[0] = frame_amount;
+    for (int i = 0; i < detail_steps; ++i)
+        amounts.of[static_cast<std::size_t>(i + 1)] = std::clamp(detail_steps * detail - i, 0.0, 1.0) / detail_steps;
+    return amounts;
+}
+
+}  // namespace
+
+AxisLaw::AxisLaw(Aim& aim) : aim_(aim), costs_(belief) {}
+
+void AxisLaw::observe(const FrameSample& sample) {
+    if (aim_.range > 0) refresh_.observe(costs_, amounts_of(drawn_detail(sample.decision)), sample.ms, aim_.target_ms);
+}
+
+void AxisLaw::decide() {
+    if (costs_.is_ready()) turn();
+    const Decision decision = decision_at(detail_, aim_.range);
+    if (drawn_count_ == 0 || decision != aim_.status.decision) remember(decision);
+    aim_.status.decision = decision;
+}
+
+void AxisLaw::turn() {
+    const double least_ms = predicted_ms(0);
+    const double aim_ms = aim_.aim_ms(costs_, least_ms, 0);
+    const Prediction now = costs_.predict(amounts_of(detail_));
+    ceiling_.step(predicted_ms(ceiling_.floor()));
+    const double sure_ms = aim_.aim_ms(costs_, least_ms, costs_.predict(amounts_of(detail_for(aim_ms))).uncertainty);
+    const double before = detail_;
+    if (least_ms > aim_.target_ms) {
+        turn_out_of_reach(detail_for(aim_ms), std::exp(now.log_ms) / aim_ms);
+    } else if (!aim_.is_kept(now, aim_ms)) {
+        turn_to(detail_for(sure_ms), std::exp(now.log_ms));
+    }
+    if (detail_ != before) aim_.status.reason = aim_.reason_to_move(now, aim_ms, least_ms);
+    aim_.believe(costs_.predict(amounts_of(detail_)), costs_);
+}
+
+void AxisLaw::turn_to(double detail, double now_ms) {
+    if (detail > detail_) {
+        detail_ = ceiling_.rise(detail_, detail, now_ms);
+    } else if (detail < detail_) {
+        detail_ = now_ms > much_over * aim_.target_ms ? ceiling_.fall(detail_, detail) : detail;
+    }
+}
+
+// Detail that seems to cost nothing is kept until it clearly does.
+void AxisLaw::turn_out_of_reach(double detail, double over_aim) {
+    if (detail > detail_ || over_aim > 1 + out_of_reach_band) detail_ = detail;
+}
+
+double AxisLaw::predicted_ms(double detail) const {
+    return std::exp(costs_.predict(amounts_of(detail)).log_ms);
+}
+
+// The detail that takes `ms`, in [0, 1].
+double AxisLaw::detail_for(double ms) const {
+    double time = costs_.gain() * costs_.price(0) * frame_amount;
+    for (int i = 0; i < detail_steps; ++i) {
+        const double step = costs_.gain() * costs_.price(i + 1) / detail_steps;
+        if (time + step > ms) return (i + std::clamp((ms - time) / step, 0.0, 1.0)) / detail_steps;
+        time += step;
+    }
+    return 1;
+}
+
+double AxisLaw::drawn_detail(const Decision& decision) const {
+    for (std::size_t i = 0; i < drawn_count_; ++i) {
+        if (drawn_[i].decision == decision) return drawn_[i].detail;
+    }
+    const double detail = detail_of(decision, aim_.range);
+    return std::isfinite(detail) ? detail : 1;
+}
+
+void AxisLaw::remember(const Decision& decision) {
+    std::rotate(drawn_.begin(), drawn_.end() - 1, drawn_.end());
+    drawn_.front() = {decision, detail_};
+    drawn_count_ = std::min(drawn_count_ + 1, drawn_.size());
+}
+
+}  // namespace sfsm

@@ -1,0 +1,50 @@
+// The predictive law where no forecast is at hand: it learns what the one axis of decisions (detail.h) costs, and turns
+// to the detail that is predicted to meet the aim.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "sfsm/aim.h"
+#include "sfsm/ceiling.h"
+#include "sfsm/refresh.h"
+
+namespace sfsm {
+
+class AxisLaw {
+public:
+    explicit AxisLaw(Aim& aim);  // the aim must outlive the law
+
+    // A frame with a usable time. Ignored while there is no range.
+    void observe(const FrameSample& sample);
+
+    // Puts the decision into the aim's status; its target and range are usable.
+    void decide();
+
+    // Another target: what was too dear for the old one may be tried again.
+    void retarget() { ceiling_.forget(); }
+
+private:
+    struct Drawn {
+        Decision decision;
+        double detail = 1;
+    };
+
+    void turn();
+    void turn_to(double detail, double now_ms);
+    void turn_out_of_reach(double detail, double over_aim);
+    double predicted_ms(double detail) const;
+    double detail_for(double ms) const;
+    double drawn_detail(const Decision& decision) const;
+    void remember(const Decision& decision);
+
+    Aim& aim_;
+    CostModel costs_;  // term 0: what every frame has; then one a step of detail
+    Refresh refresh_;
+    Ceiling ceiling_;
+    double detail_ = 1;
+    std::array<Drawn, 16> drawn_{};  // the newest decisions; L may have moved since, so each with its detail
+    std::size_t drawn_count_ = 0;
+};
+
+}  // namespace sfsm

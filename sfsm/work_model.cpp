@@ -1,0 +1,86 @@
+#include "sfsm/work_model.h"
+
+#include <cmath>
+
+namespace sfsm {
+namespace {
+
+constexpr double frame_share = 0.05;  // of the first frame's pieces, for what is there in every frame
+constexpr double frame_spread = 1;    // of that belief, as WorkPrior::spread
+constexpr double slow_piece_ms = 30e-6;
+static_assert(1 + work_kinds <= most_terms);
+
+constexpr PriceBelief belief = [] {
+    PriceBelief all;
+    all.terms = 1 + static_cast<int>(work_kinds);
+    all.spread[0] = frame_spread;
+    for (std::size_t i = 0; i < work_kinds; ++i) {
+        all.spread[i + 1] = work_table[i].prior.spread;
+        all.least[i + 1] = work_table[i].prior.least;
+    }
+    return all;
+}();
+
+// Of each kind, in pieces.
+Amounts amounts_from(double frame_amount, const std::array<double, work_kinds>& counts) {
+    Amounts amounts;
+    amounts.terms = belief.terms;
+    amounts.of[0] = frame_amount;
+    for (std::size_t i = 0; i < work_kinds; ++i) amounts.of[i + 1] = work_table[i].prior.pieces * counts[i];
+    return amounts;
+}
+
+}  // namespace
+
+WorkModel::WorkModel() : costs_(belief) {}
+
+Amounts WorkModel::amounts_of(const Plan& plan) const {
+    return amounts_from(frame_amount_, plan.counts);
+}
+
+Amounts WorkModel::amounts_of(const Work& work) const {
+    std::array<double, work_kinds> counts;
+    for (std::size_t i = 0; i < work_kinds; ++i) counts[i] = counted(work.counts[i]);
+    return amounts_from(frame_amount_, counts);
+}
+
+void WorkModel::observe(const FrameSample& sample, double target_ms) {
+    if (frame_amount_ == 0) {
+        double pieces = 0;
+        for (const double amount : amounts_of(sample.work).of) pieces += amount;
+        frame_amount_ = frame_share * pieces;
+    }
+    const Amounts amounts = amounts_of(sample.work);
+    if (costs_.is_ready()) foresight_.observe(sample, amounts, costs_);
+    refresh_.observe(costs_, amounts, sample.ms, target_ms);
+}
+
+void WorkModel::foresee(std::int64_t frame, const Decision& decision, const Plan& plan) {
+    foresight_.foresee(frame, decision, amounts_of(plan));
+}
+
+Prediction WorkModel::predict(const Plan& plan) const {
+    Prediction prediction = costs_.predict(amounts_of(plan));
+    prediction.log_ms += foresight_.bias();
+    return prediction;
+}
+
+Prices WorkModel::prices() const {
+    Prices prices;
+    prices.frame = costs_.gain() * costs_.price(0) * frame_amount_;
+    for (std::size_t i = 0; i < work_kinds; ++i)
+        prices.each[i] = costs_.gain() * costs_.price(static_cast<int>(i) + 1) * work_table[i].prior.pieces;
+    return prices;
+}
+
+Prices WorkModel::foreseen_prices() const {
+    return std::exp(foresight_.bias()) * prices();
+}
+
+Prices prices_of_a_slow_machine() {
+    Prices prices;
+    for (std::size_t i = 0; i < work_kinds; ++i) prices.each[i] = slow_piece_ms * work_table[i].prior.pieces;
+    return prices;
+}
+
+}  // namespace sfsm
