@@ -1,11 +1,11 @@
 #include "sfsm/replay.h"
 
-#include <bit>
 #include <cassert>
 #include <cmath>
 #include <stdexcept>
 
 #include "sfsm/number_text.h"
+#include "sfsm/trace_columns.h"
 
 namespace sfsm {
 
@@ -40,19 +40,19 @@ int trace_delay(const Trace& trace) {
 
 std::optional<Difference> first_difference(std::span<const TraceRow> rows, std::span<const Replayed> replayed) {
     assert(rows.size() == replayed.size());
-    const auto same_bits = [](double a, double b) {
-        return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
-    };
+    // Numbers are written so that they read back to the same bits: equal texts are equal bits.
+    TraceRow again;
+    std::string recorded, decided;
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        const Decision& recorded = rows[i].decision;
-        const Decision& decided = replayed[i].decision;
-        const Difference fields[] = {
-            {rows[i].frame, "state", static_cast<double>(recorded.state), static_cast<double>(decided.state)},
-            {rows[i].frame, "motion_distance_m", recorded.motion_distance, decided.motion_distance},
-            {rows[i].frame, "splat_px", recorded.splat_size, decided.splat_size},
-        };
-        for (const Difference& field : fields) {
-            if (!same_bits(field.recorded, field.decided)) return field;
+        again.decision = replayed[i].decision;
+        for (const TraceColumn& column : trace_columns()) {
+            if (!column.is_decided) continue;
+            recorded.clear();
+            decided.clear();
+            column.write(recorded, rows[i]);
+            column.write(decided, again);
+            if (recorded == decided) continue;
+            return Difference{rows[i].frame, std::string(column.name), *parse_double(recorded), *parse_double(decided)};
         }
     }
     return std::nullopt;

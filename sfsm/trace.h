@@ -39,9 +39,7 @@ struct Trace {
     bool is_cut = false;    // the file ended within a row, which is left out
 };
 
-// A forecast's steps are in the last two columns, steps parted by blanks and their numbers by colons, in the order of
-// their fields; readers may do without them and predicted_ms. The header has at least
-// frame,target_ms,frame_ms,cpu_ms,gpu_ms,state,motion_distance_m,splat_px,visible,triangles,points,motion_updates.
+// trace_columns.h has the columns.
 void write_trace_header(std::ostream& out, const std::map<std::string, std::string>& settings);
 void write_trace_row(std::ostream& out, const TraceRow& row);
 

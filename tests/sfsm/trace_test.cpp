@@ -142,6 +142,31 @@ TEST(Trace, DamagedForecastIsNamedByItsLine) {
     }
 }
 
+// Its setting, a count for each kind of the axis, its loss, and one number more: from a version that has more kinds.
+template <WorkAxis axis>
+std::string step_of_a_later_version() {
+    std::string step = "1";
+    for (std::size_t i = 0; i < work_on<axis>.size() + 2; ++i) step += ":2";
+    return step;
+}
+
+TEST(Trace, AStepOfMoreKindsThanThereAreIsRefused) {
+    const std::string wide = std::string(header, std::strlen(header) - 1) + ",motion_steps,splat_steps\n";
+    const std::string row = std::string(good_row, std::strlen(good_row) - 1);
+    const std::string motion = step_of_a_later_version<WorkAxis::motion>();
+    const std::string shape = step_of_a_later_version<WorkAxis::shape>();
+    for (const auto& [steps, said] :
+         {std::pair{"," + motion + ",0:1:1:0", "motion_steps has '" + motion + "', expected"},
+          std::pair{",1:2:3," + shape, "splat_steps has '" + shape + "', expected"}}) {
+        try {
+            read(wide + row + steps + "\n");
+            ADD_FAILURE() << steps;
+        } catch (const std::runtime_error& error) {
+            EXPECT_NE(std::string(error.what()).find("t.csv:2: " + said), std::string::npos) << error.what();
+        }
+    }
+}
+
 TEST(Trace, CountsOfStepsThatNoDoubleTellsApartAreTheLargestThatOneDoes) {
     constexpr std::int64_t largest = std::int64_t{1} << 53;
     const std::string wide = std::string(header, std::strlen(header) - 1) + ",motion_steps,splat_steps\n";

@@ -1,0 +1,226 @@
+#include "sfsm/trace_columns.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "sfsm/number_text.h"
+#include "sfsm/text.h"
+
+namespace sfsm {
+namespace {
+
+std::string is_not(std::string_view field, const char* expected) {
+    return "is " + shown(field) + ", expected " + expected;
+}
+
+// --- How a field is written and read.
+
+struct Count {
+    static void write(std::string& line, std::int64_t count) { append_number(line, count); }
+    static std::string read(std::string_view field, std::int64_t& count) {
+        const std::optional<std::int64_t> value = parse_integer(field);
+        if (!value || *value < 0) return is_not(field, "a whole number from 0");
+        count = *value;
+        return {};
+    }
+};
+
+struct Number {
+    static void write(std::string& line, double number) { append_number(line, number); }
+    static std::string read(std::string_view field, double& number) {
+        const std::optional<double> value = parse_double(field);
+        if (!value) return is_not(field, "a number");
+        number = *value;
+        return {};
+    }
+};
+
+// A number that may not have been measured: NaN, also read from an empty field.
+struct MaybeNumber : Number {
+    static std::string read(std::string_view field, double& number) {
+        if (!field.empty()) return Number::read(field, number);
+        number = std::numeric_limits<double>::quiet_NaN();
+        return {};
+    }
+};
+
+struct StateDigit {
+    static void write(std::string& line, State state) { append_number(line, std::int64_t{static_cast<int>(state)}); }
+    static std::string read(std::string_view field, State& state) {
+        if (field != "0" && field != "1" && field != "2") return is_not(field, "0, 1 or 2");
+        state = static_cast<State>(field[0] - '0');
+        return {};
+    }
+};
+
+struct Distance : Number {
+    static std::string read(std::string_view field, double& metres) {
+        std::string wrong = Number::read(field, metres);
+        if (wrong.empty() && !(metres > 0)) return is_not(field, "metres over 0, or inf");
+        return wrong;
+    }
+};
+
+struct SplatSize : Number {
+    static_assert(max_splat_size == 32, "the message says so");
+    static std::string read(std::string_view field, double& pixels) {
+        std::string wrong = Number::read(field, pixels);
+        if (wrong.empty() && !(pixels >= 0 && pixels <= max_splat_size)) return is_not(field, "pixels in [0, 32]");
+        return wrong;
+    }
+};
+
+// --- Kinds of work.
+
+// Every trace has these; kinds that came later may be missing.
+constexpr std::size_t first_kinds = index_of(WorkKind::motion_update) + 1;
+
+template <WorkAxis axis>
+constexpr std::size_t first_kinds_on = std::count_if(work_on<axis>.begin(), work_on<axis>.end(),
+                                                     [](WorkKind kind) { return index_of(kind) < first_kinds; });
+
+// The largest whole number that a double tells from its neighbours.
+std::int64_t whole(double count) {
+    constexpr double most = 0x1p53;
+    return static_cast<std::int64_t>(std::min(count, most));
+}
+
+// Steps parted by blanks; a step is its setting, a count for each kind of the axis, and its loss, parted by colons. One
+// with fewer counts is from before the later kinds: those are 0. Most of a trace's bytes are these.
+template <WorkAxis axis>
+struct Steps {
+    static constexpr std::size_t most_numbers = 2 + work_on<axis>.size();
+    static constexpr std::size_t least_numbers = 2 + first_kinds_on<axis>;
+
+    static void write(std::string& line, const std::vector<Step>& steps) {
+        const char* blank = "";
+        for (const Step& step : steps) {
+            append_number(line += blank, step.setting);
+            for (const WorkKind kind : work_on<axis>) append_number(line += ':', step.work[kind]);
+            append_number(line += ':', step.loss_px);
+            blank = " ";
+        }
+    }
+
+    static std::string read(std::string_view field, std::vector<Step>& steps) {
+        if (field.empty()) return {};
+        steps.reserve(1 + static_cast<std::size_t>(std::count(field.begin(), field.end(), ' ')));
+        const char* const end = field.data() + field.size();
+        for (const char* at = field.data();; ++at) {
+            const char* const begin = at;
+            if (!read_step(at, end, steps.emplace_back())) return has_bad_step({begin, std::find(begin, end, ' ')});
+            if (at == end) return {};
+        }
+    }
+
+private:
+    // Moves `at` to the blank behind the step, or to the end.
+    static bool read_step(const char*& at, const char* end, Step& step) {
+        std::array<double, most_numbers> numbers{};
+        std::size_t count = 0;
+        for (; count < numbers.size(); ++count) {
+            if (count >= least_numbers && (at == end || *at == ' ')) break;
+            if (count > 0 && (at == end || *at++ != ':')) return false;
+            const std::from_chars_result result = std::from_chars(at, end, numbers[count]);
+            if (result.ec != std::errc() || !(numbers[count] >= 0)) return false;
+            at = result.ptr;
+        }
+        step.setting = numbers[0];
+        for (std::size_t i = 1; i + 1 < count; ++i) step.work[work_on<axis>[i - 1]] = whole(numbers[i]);
+        step.loss_px = numbers[count - 1];
+        return at == end || *at == ' ';
+    }
+
+    static std::string has_bad_step(std::string_view step) {
+        std::string numbers = std::to_string(most_numbers);
+        if (least_numbers < most_numbers) numbers = std::to_string(least_numbers) + " to " + numbers;
+        return "has " + shown(step) + ", expected " + numbers + " numbers from 0, parted by colons";
+    }
+};
+
+// --- The table.
+
+enum Need : bool { optional, required };
+
+// `path` leads from the row to what the field holds, member by member.
+template <class Form, auto... path>
+constexpr TraceColumn column(std::string_view name, std::string_view unit, std::string_view meaning,
+                             Need need = required) {
+    constexpr bool is_decided = (std::is_same_v<decltype(path), decltype(&TraceRow::decision)> || ...);
+    return {name,
+            unit,
+            meaning,
+            need == required,
+            is_decided,
+            [](std::string& line, const TraceRow& row) { Form::write(line, (row.*....*path)); },
+            [](TraceRow& row, std::string_view field) { return Form::read(field, (row.*....*path)); }};
+}
+
+template <std::size_t kind>
+constexpr TraceColumn count_column() {
+    constexpr const WorkEntry& entry = work_table[kind];
+    return {entry.column,
+            "",
+            entry.meaning,
+            kind < first_kinds,
+            false,
+            [](std::string& line, const TraceRow& row) { Count::write(line, row.work.counts[kind]); },
+            [](TraceRow& row, std::string_view field) { return Count::read(field, row.work.counts[kind]); }};
+}
+
+template <std::size_t... kind>
+constexpr auto columns_with(std::index_sequence<kind...>) {
+    using Row = TraceRow;
+    return std::array{
+        column<Count, &Row::frame>("frame", "", "counts from 0"),
+        column<Number, &Row::target_ms>("target_ms", "ms", "the user's"),
+        column<MaybeNumber, &Row::frame_ms>(
+            "frame_ms", "ms",
+            "what the law holds at the target: the slower of CPU and GPU, or all of it on a software driver"),
+        column<MaybeNumber, &Row::cpu_ms>("cpu_ms", "ms", "to record the frame"),
+        column<MaybeNumber, &Row::gpu_ms>("gpu_ms", "ms", "to draw it, where the driver can say"),
+        column<StateDigit, &Row::decision, &Decision::state>("state", "", "0, 1 or 2"),
+        column<Distance, &Row::decision, &Decision::motion_distance>("motion_distance_m", "m",
+                                                                     "D: people beyond it move less often"),
+        column<SplatSize, &Row::decision, &Decision::splat_size>("splat_px", "px",
+                                                                 "S: the size of the points in state 2"),
+        count_column<kind>()...,
+        column<Number, &Row::range>("range_m", "m", "L: how far people are visible, as the law was told"),
+        column<MaybeNumber, &Row::predicted_ms>("predicted_ms", "ms", "what the law expected of this frame", optional),
+        column<Steps<WorkAxis::motion>, &Row::motion>("motion_steps", "", "the forecast: its steps of D", optional),
+        column<Steps<WorkAxis::shape>, &Row::shapes>("splat_steps", "", "the forecast: its steps of S", optional),
+    };
+}
+
+constexpr auto columns = columns_with(std::make_index_sequence<work_kinds>());
+
+std::string names(bool is_wanted(const TraceColumn&)) {
+    std::string list;
+    for (const TraceColumn& column : columns) {
+        if (!is_wanted(column)) continue;
+        if (!list.empty()) list += ',';
+        list += column.name;
+    }
+    return list;
+}
+
+}  // namespace
+
+std::span<const TraceColumn> trace_columns() {
+    return columns;
+}
+
+std::string all_column_names() {
+    return names([](const TraceColumn&) { return true; });
+}
+
+std::string required_column_names() {
+    return names([](const TraceColumn& column) { return column.is_required; });
+}
+
+}  // namespace sfsm
