@@ -13,8 +13,7 @@
 
 namespace sfsm {
 
-// All that a controller believes; read by the overlay, the trace, the report and the tests. NaN is what a law doesn't
-// know, or does not know yet.
+// All that a controller believes; read by the overlay, the trace, the report and the tests. NaN: not known, or not yet.
 struct Status {
     Decision decision;
     double target_ms = 0;
@@ -34,7 +33,7 @@ struct Status {
 struct FrameRequest {
     double target_ms = 0;                // > 0
     double range = 0;                    // L [m] > 0: people are visible up to this view depth
-    const Forecast* forecast = nullptr;  // none: the renderer can't say
+    const Forecast* forecast = nullptr;  // nullptr: the renderer can't say
 };
 
 class Controller {
@@ -44,7 +43,8 @@ public:
     // A time has arrived; in frame order, possibly frames late.
     virtual void observe(const FrameSample& sample) = 0;
 
-    // The decision for the next frame. Unusable numbers leave the last usable ones in force.
+    // The decision for the next frame. A target or range that is not finite and over 0 is ignored: the last usable one
+    // holds.
     virtual Decision decide(const FrameRequest& request) = 0;
 
     virtual const Status& status() const = 0;

@@ -10,22 +10,22 @@ namespace {
 
 constexpr double first_noise = 0.05;                     // relative
 constexpr double least_noise = 0.001, most_noise = 0.3;  // relative
-constexpr double slowest_noise = 0.015;                  // share that its estimate moves by per sample
-constexpr double huber = 3;                              // standard deviations
-constexpr double small_step = 0.05;                      // relative
+constexpr double slowest_noise = 0.015;                  // [share] that the estimate of noise moves by per sample
+constexpr double huber = 3;                              // [sigmas] from which a time is an outlier
+constexpr double small_step = 0.05;                      // [ln] a residual that needs no further turn
 constexpr int most_turns = 6;
 constexpr double gain_memory = 60;                      // [samples] that the gain is averaged over
-constexpr double price_walk = 0.0003;                   // 1 sigma per sample, in shares of price and belief
-constexpr double least_walker = 0.02;                   // in units of the first guess: cheaper prices walk as that
-constexpr double most_price = 1e4, least_fixed = 1e-4;  // in units of the first guess
-constexpr double disagreement = 8;                      // of two times, in sigmas of the noise
-constexpr double likeness = 2;                          // standard deviations within which a gain is one known before
-constexpr double most_recall = 0.1;                     // and relative
-constexpr double recall_worth = 16;                     // frames of the new level that the old one is worth
+constexpr double price_walk = 0.0003;                   // [share of price and spread] a price may drift per sample
+constexpr double least_walker = 0.02;                   // [first guess] a cheaper price drifts as if it cost this much
+constexpr double most_price = 1e4, least_fixed = 1e-4;  // [first guess]
+constexpr double disagreement = 8;                      // [sigmas of noise] two times this far apart are outliers
+constexpr double likeness = 2;                          // [sigmas] within which a gain is the one before the last shift
+constexpr double most_recall = 0.1;                     // [ln] and within which it must be, however large a sigma is
+constexpr double recall_worth = 16;                     // [frames] the gain before counts like so many new frames
 constexpr double most_log_gain = 60;
 constexpr double strangely_off = 3;  // ln of 20
-constexpr double known = 0.5;        // uncertainty over which nothing is strange
-constexpr int most_strange = 8;      // times in a row that are strange; then they are what frames take now
+constexpr double known = 0.5;        // [ln] uncertainty from which on no time is strange
+constexpr int most_strange = 8;      // [times] strange in a row; from then on they are what frames take now
 constexpr double least_log_ms = -40, most_log_ms = 40;
 // The median of |a - b| of two normal numbers of spread 1.
 constexpr double median_difference = 0.9539;
@@ -96,8 +96,8 @@ double CostModel::log_time(const Amounts& amounts, Vector& gradient) const {
     return log_scale_ + state_[0] + std::log(sum);
 }
 
-// One step of the filter. Returns the residual in units of its standard deviation. Time is a product and a sum of what
-// is estimated, so large steps look for the point that they should have been linear at.
+// One step of the filter. Returns the residual in units of its standard deviation. The time is not linear in what is
+// estimated, so a large step is taken again from where it led, until it changes little.
 double CostModel::correct(const Seen& seen) {
     const Vector before = state_;
     Vector gradient, covariance;
@@ -125,8 +125,8 @@ double CostModel::correct(const Seen& seen) {
     return standardised;
 }
 
-// A price below its least is moved there, and what is believed together with it moves along as far as they are
-// correlated: stopped alone, it would leave its share of the time to nobody.
+// A price below its least is moved up to it. The prices that are correlated with it move along: else part of the time
+// would be explained by nothing.
 void CostModel::limit() {
     state_[0] = std::clamp(state_[0], -most_log_gain, most_log_gain);
     const auto least = [this](int i) { return std::max(belief_.least[i - 1], i == 1 ? least_fixed : 0.0); };
@@ -157,8 +157,8 @@ void CostModel::forget() {
     }
 }
 
-// A step towards the median of the differences between neighbours, whatever their size: outliers don't count, and
-// neither do frames whose time was not known well.
+// Moves the noise a step towards the median difference between neighbours. The step doesn't depend on the difference,
+// so outliers don't count. Nor do frames whose time was not known well.
 void CostModel::learn_noise(const Seen& seen) {
     const Prediction prediction = predict(seen.amounts);
     if (prediction.uncertainty > noise_) return;
@@ -172,8 +172,8 @@ void CostModel::learn_noise(const Seen& seen) {
     noise_ = std::clamp(noise_, least_noise, most_noise);
 }
 
-// The newest `count` times tell of another level: forget the gain, and hear them again. But two alone that tell of
-// different levels are two outliers.
+// The newest `count` times tell of another level: the gain is forgotten and they are heard again. But two times that
+// tell of two different levels are two outliers.
 void CostModel::take_shift(int count) {
     const auto newest = [&](int i) -> const Seen& {
         return recent_[static_cast<std::size_t>((samples_ - i) % ShiftDetector::window)];
@@ -197,7 +197,7 @@ void CostModel::take_shift(int count) {
     left_variance_ = variance;
 }
 
-// Loads come back to what they were: a gain like the one before the last shift is taken for that one.
+// Loads often come back. A gain that is like the one before the last shift is taken for that one.
 void CostModel::recall(double log_gain, double variance) {
     const double likely = likeness * std::sqrt(spread_[0][0] + variance);
     if (std::abs(state_[0] - log_gain) > std::min(likely, most_recall)) return;

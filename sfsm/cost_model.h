@@ -1,6 +1,6 @@
 // What a frame costs, learned from frames: time = gain * sum over terms of price * amount. Prices say how kinds of work
-// compare, the gain follows all that makes every frame slower or faster (clocks, other programs, a crowd that grew
-// where no forecast can say so). No clock, no allocation; the same calls give the same bits.
+// compare. The gain follows all that makes every frame slower or faster: clocks, other programs, a crowd that grew
+// without a forecast. No clock, no allocation; the same calls give the same bits.
 #pragma once
 
 #include <array>
@@ -24,23 +24,25 @@ struct Prediction {
     double uncertainty = 0;  // 1 sigma of log_ms without the noise of a single frame, >= 0: 0.1 is about 10 %
 };
 
-// What is believed of the prices before the first time: each is 1, give or take.
+// What is believed before the first time: each price is 1, give or take its spread.
 struct PriceBelief {
     int terms = 1;                            // in [1, most_terms]
     std::array<double, most_terms> spread{};  // 1 sigma of each price, > 0
-    double likeness = 0;                      // correlation of terms 1, 2, ... at a distance of one, [0, 1)
-    std::array<double, most_terms> least{};   // no price falls below, [0, 1): what surely isn't free
+    double likeness = 0;                      // correlation of neighbours among terms 1, 2, ..., [0, 1)
+    std::array<double, most_terms> least{};   // lowest price of each, [0, 1); over 0: it surely isn't free
 };
 
-// An extended Kalman filter in the logarithm of time over [ln gain, prices], with Huber's weights, prices kept at 0 or
-// more, a random walk that forgets slowly but never beyond the first belief, and a detector of shifts that hands
-// sudden changes to the gain.
+// An extended Kalman filter. It estimates ln gain and the prices from the logarithm of each time.
+// - Outliers are weighed down (Huber).
+// - Prices never fall below 0.
+// - It forgets slowly (a random walk), but never becomes less sure than it was at first.
+// - Sudden changes are found by a detector of shifts and are the gain's.
 class CostModel {
 public:
     explicit CostModel(const PriceBelief& belief);
 
-    // A frame of these amounts took `ms` (finite, > 0). Times 20-fold off are a pause, a loading screen, a window that
-    // was dragged: not believed before the eighth in a row.
+    // A frame of these amounts took `ms` (finite, > 0). A time that is off by a factor of 20 or more is a pause, a
+    // loading screen or a dragged window. It is not believed before the eighth in a row.
     void observe(const Amounts& amounts, double ms);
 
     // Means nothing before is_ready().

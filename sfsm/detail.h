@@ -1,5 +1,5 @@
-// The one axis that all decisions lie on: detail from 1, nothing lost, to 0, the most that can be lost. Laws that know
-// a single knob turn this one; so do all of them where no forecast says what the others would cost.
+// The one axis that decisions lie on for laws with a single knob: detail, from 1 (nothing is lost) to 0 (the most is
+// lost). A law without a forecast turns this knob.
 #pragma once
 
 #include "sfsm/decision.h"
@@ -9,12 +9,14 @@ namespace sfsm {
 inline constexpr double detail_of_points = 2.0 / 3;  // the paper's boundary between states 1 and 2, as D / L
 inline constexpr double finest_splat = 0.5;          // [px] at that boundary
 
-// State 0 at 1; state 1 with D = detail * L down to 2/3; below, state 2 with D = 2/3 L and S growing geometrically from
-// finest_splat to max_splat_size at 0. `detail` in [0, 1], range > 0 [m]. Neighbouring details give neighbouring
-// decisions, and detail_of gets any of them back.
+// `detail` in [0, 1], range > 0 [m]:
+//   1             state 0
+//   from 2/3      state 1, D = detail * L
+//   below 2/3     state 2, D = 2/3 L, S growing geometrically from finest_splat to max_splat_size at 0
+// Neighbouring details give neighbouring decisions; detail_of() is the way back.
 Decision decision_at(double detail, double range);
 
-// The detail of a decision of this axis; of another, that of the nearest one of its state.
+// The detail that a decision has. For one that is not on this axis: the detail of the nearest one in its state.
 double detail_of(const Decision& decision, double range);
 
 }  // namespace sfsm

@@ -1,5 +1,5 @@
-// The decisions that a law's present answer has been given as: more than one, since L moves D. A time that belongs to
-// none of them is late, and tells of an older answer.
+// The decisions that were drawn since a law last changed its mind. One answer makes several of them: D is a share of L,
+// and L changes from frame to frame. A time that was drawn with none of them is late and tells of an older answer.
 #pragma once
 
 #include <algorithm>

@@ -5,9 +5,9 @@
 namespace sfsm {
 namespace {
 
-constexpr int memory = 16;             // frames that the mean is over
-constexpr double most_surprise = 0.1;  // ln; a frame that is further off counts as this far
-constexpr double most_bias = 0.3;      // ln
+constexpr int memory = 16;             // [frames] that the mean is over
+constexpr double most_surprise = 0.1;  // [ln] a frame that is off by more counts as this much
+constexpr double most_bias = 0.3;      // [ln]
 
 }  // namespace
 

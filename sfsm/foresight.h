@@ -1,6 +1,6 @@
-// How far forecasts are off: what frames turned out to draw, against what was foreseen for them. Renderers count people
-// in bins, and steps are interpolated between, so a forecast may be some per cent wrong for as long as a view lasts;
-// prices can't mend that, since they are learned from what was drawn.
+// How far forecasts are off: the work that frames drew, compared with the work that was foreseen for them. Renderers
+// count people in bins, and laws interpolate between steps, so a forecast may be some per cent wrong for as long as a
+// view lasts. Prices can't mend that: they are learned from the work that was drawn.
 #pragma once
 
 #include <array>
@@ -16,10 +16,11 @@ public:
     // The work foreseen for decision number `frame`, counted from 0.
     void foresee(std::int64_t frame, const Decision& decision, const Amounts& amounts);
 
-    // The work that came of it; frames that were not foreseen tell nothing. Times are compared at the model's prices.
+    // The work that the frame drew. Drawn and foreseen work are compared by the times the model predicts for them. A
+    // frame that was not foreseen tells nothing.
     void observe(const FrameSample& sample, const Amounts& amounts, const CostModel& model);
 
-    // ln of drawn over foreseen, a slow mean; 0 while forecasts are right.
+    // ln(drawn / foreseen), a slow mean; 0 while forecasts are right.
     double bias() const { return bias_; }
 
 private:

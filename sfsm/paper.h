@@ -1,7 +1,7 @@
-// The law of Lyu, Zhang and Fan 2018 ("SFSM"), section 3.3, its errata corrected: equations 2-7 as functions, the state
-// machine as one table, and the controller that runs it. It keeps the printed law's limit cycles (D never settles
-// closer than h, S never closer than tau) and its trust in every single time. docs/controller.md tells the story.
-// Equation 1, which turns D into who moves, is motion/schedule.h.
+// The law of Lyu, Zhang and Fan 2018 ("SFSM"), section 3.3, with its errata corrected: equations 2-7 as functions, the
+// state machine as one table, and the controller that runs it. It keeps what is weak in the printed law: D never
+// settles closer than h and S never closer than tau, and every single time is trusted. docs/controller.md tells the
+// story. Equation 1, which turns D into who moves, is motion/schedule.h.
 #pragma once
 
 #include <array>
@@ -21,11 +21,11 @@ struct PaperConstants {
 
     // Ours, where the paper is silent: hysteresis of the way back.
     double nearest_share = 1.0 / 6;  // D / L is never less: who is that near always moves, (0, points_share)
-    double return_margin = 0.05;     // a way back opens when T < (1 - margin) t, [0, 1)
-    double far_margin = 0.10;        // T > (1 + margin) t with no slope to follow: motion is not the bottleneck, >= 0
-    int first_patience = 3;          // times in a row that must be that fast before the way back is taken, >= 1
-    int max_patience = 128;          // the most that failed returns from state 2 raise it to, >= first_patience
-    int trial = 16;                  // a return that lasts for so many times has not failed, >= 1
+    double return_margin = 0.05;     // [share of t] below t that times must be for the way back, [0, 1)
+    double far_margin = 0.10;        // [share of t] over t from which motion is no bottleneck if D has no effect, >= 0
+    int first_patience = 3;          // [times] in a row that fast before the way back is taken, >= 1
+    int max_patience = 128;          // [times] the most that failed returns from state 2 raise it to, >= first_patience
+    int trial = 16;                  // [times] that a return from state 2 must last, or it has failed, >= 1
 
     // Throws std::invalid_argument naming the first broken rule.
     void validate() const;
@@ -66,14 +66,14 @@ struct PaperMemory {
     State state = State::original;
     double target_ms = 0;  // t
     double range = 0;      // L [m]
-    double ms = 0;         // T_{i-1}, the newest time drawn with the newest decision
+    double ms = 0;         // T_{i-1}: the newest time that was drawn with the newest decision
     double distance = 0;   // D [m], before it is limited to [nearest_share L, L]; infinite: L
     double splat = 0;      // S [px]
     Learned newer, older;  // the last two different distances learned in this episode
     int learned = 0;       // how many of the two there are
     int i = 0;             // of eq. 2; 1 stands for all i > 0
-    int fast_times = 0;    // in a row, below the return margin with nothing left to give back in this state
-    int patience = 0;      // how many of them state 2 asks for
+    int fast_times = 0;    // in a row below the return margin, while this state has no finer decision
+    int patience = 0;      // how many of them state 2 asks for before it returns
     int since_return = 0;  // times in state 1 since state 2 was last left; at most PaperConstants::trial
 };
 
@@ -89,10 +89,10 @@ struct PaperTransition {
 };
 std::span<const PaperTransition> paper_transitions();
 
-// Takes one step of the law for each time drawn with its newest decision: a time that arrives late and answers an
-// older one is paired with that one, so nothing is stepped twice for one measurement (samples up to 32 distinct
-// decisions late). A change of target is judged at once by the newest time. In state 0 the decision is Decision{}
-// (D infinite); in the others D is in [L / 6, L]; until a usable target and range have been seen it is state 0.
+// Takes one step for each time that was drawn with its newest decision. A late time that answers an older decision is
+// no step, so one measurement is never stepped on twice (samples up to 32 distinct decisions late). A new target is
+// judged at once by the newest time. In state 0 the decision is Decision{} (D infinite), in the others D is in
+// [L / 6, L]. Until a usable target and range have been seen it is state 0.
 class PaperLaw final : public Controller {
 public:
     explicit PaperLaw(const PaperConstants& constants = {});  // throws as validate() does

@@ -6,15 +6,15 @@
 namespace sfsm {
 namespace {
 
-constexpr double same = 1e-6;                           // relative
-constexpr int convincing = 4;                           // times running
-constexpr double slack = 1.05;                          // that predictions near a refresh have
-constexpr int many_late = 3;                            // frames late in a row: not by chance
-constexpr double many = 8;                              // refreshes; a longer time is no frame
-constexpr double fast_drift = 2e-3, slow_drift = 4e-5;  // of ln gain, per frame in time
-constexpr double late_per_drift = 49;                   // drifts that a late frame takes back: 2 % are late then
-constexpr int nearness = 250;                           // frames in time after which it is far again
-constexpr double first_late = 0.03;                     // ln gain taken back by the first
+constexpr double same = 1e-6;                           // [share] by which a rounded time may be off
+constexpr int convincing = 4;                           // [times] in a row that must be whole refreshes
+constexpr double slack = 1.05;                          // [factor] by which a prediction may miss a refresh
+constexpr int many_late = 3;                            // [frames] late in a row that are no chance
+constexpr double many = 8;                              // [refreshes] a longer time is no frame
+constexpr double fast_drift = 2e-3, slow_drift = 4e-5;  // [ln gain] per frame in time: far from a miss, and near one
+constexpr double late_per_drift = 49;                   // [slow drifts] that a late frame takes back: 2 % are late then
+constexpr int nearness = 250;                           // [frames] in time until a miss is long ago
+constexpr double first_late = 0.03;                     // [ln gain] that a miss takes back after a long time without
 
 }  // namespace
 

@@ -21,15 +21,15 @@ struct Replayed {
     double predicted_ms = 0;  // Status's
 };
 
-// What `law` does at the rows' targets and ranges, when before the decision of frame k the times of the frames up to
-// k - 1 - delay have arrived. Open loop: each recorded time is taken for the time of the law's own decision of that
-// frame. A row without a time is not observed. One element a row; `delay` in [0, max_delay].
+// What `law` decides at the rows' targets and ranges; one element a row. Before it decides frame k, it has observed the
+// times of the frames up to k - 1 - delay; `delay` in [0, max_delay]. Open loop: each recorded time is taken for the
+// time of the law's own decision. A row without a time is not observed.
 std::vector<Replayed> replay(Controller& law, std::span<const TraceRow> rows, int delay);
 
 // The setting `delay`; 0 where the trace has none. Throws std::runtime_error when it is not a number in [0, max_delay].
 int trace_delay(const Trace& trace);
 
-// A field of a decision that is not the recorded one to the bit.
+// A number of a decision that differs from the recorded one in any bit.
 struct Difference {
     std::int64_t frame = 0;
     std::string field;  // the trace column

@@ -69,8 +69,8 @@ Cost present_cost(const Memory& m) {
     return {true, m.detail, m.dwell.level, error_of(m)};
 }
 
-// What the way from `before` to here has taught. A difference within the noise teaches only where a clear one was to be
-// expected; else `before` stays, until the steps from there add up to one.
+// Learns the slope from `before` to here. A difference in time that may be noise teaches only where a clear one should
+// have been seen. Otherwise `before` stays, and the next steps add to the way from there.
 void learn_slope(Memory& m, const Constants& c) {
     const Cost before = m.before;
     const double moved = m.detail - before.detail;
@@ -95,7 +95,7 @@ void learn_slope(Memory& m, const Constants& c) {
     m.slope_detail = m.detail;
 }
 
-// Whether the present point can't be of the scene that the end of the bracket was measured in.
+// Whether the scene must have changed since that end of the bracket was measured.
 bool contradicts_fast_end(const Memory& m, double doubt) {
     if (!m.fast_end.is_known) return false;
     const bool is_at = m.detail == m.fast_end.detail && m.verdict == Verdict::slow;
@@ -319,8 +319,8 @@ constexpr SafeguardedTransition transitions[] = {
     {"", s2, s2, always, stay, "else", "stay", "S: no miss beyond the noise"},
 };
 
-// A hitch is two things: one time far off, and the next one that is not. Two on the same side are another level, the
-// nearer of them.
+// A hitch is one time that is far off, followed by one that is not. Two in a row that are off to the same side are
+// another level: that of the nearer one.
 void remember(Memory& m, const Constants& c, double level) {
     Dwell& dwell = m.dwell;
     const double away = level - dwell.level;
@@ -420,7 +420,7 @@ Decision SafeguardedLaw::decide(const FrameRequest& request) {
     return status_.decision;
 }
 
-// What was learned of the slope stays; ends of the bracket, waits and holds were about the other target.
+// The slope that was learned stays. The bracket, waits and holds belong to the old target and are forgotten.
 void SafeguardedLaw::retarget(double target_ms) {
     status_.target_ms = target_ms;
     memory_.target = std::log(target_ms);

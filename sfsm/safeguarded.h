@@ -1,7 +1,7 @@
-// The paper's law made safe: its measurements (frame times), its knobs (D, S) and its three states, without a forecast,
-// and without what breaks the printed law. A step is taken when the times of the present decision differ from the
-// target by more than their noise; it is a secant step, kept inside the bracket of details known to be too slow and
-// fast enough. docs/controller.md tells the story and shows the table.
+// The paper's law made safe. It measures the same (frame times), has the same knobs (D, S) and the same three states,
+// and no forecast; what breaks the printed law is cured. It takes a step when the times of the present decision differ
+// from the target by more than their noise. The step is a secant step, kept between a detail known to be too slow and
+// one known to be fast enough (the bracket). docs/controller.md tells the story and shows the table.
 #pragma once
 
 #include <array>
@@ -13,21 +13,21 @@
 namespace sfsm {
 
 struct SafeguardedConstants {
-    double dead_band = 0.005;     // misses up to this share of t are none, [0, 0.2]
-    double headroom = 0.3;        // standard deviations of one time that frames are aimed below t, [0, 3]
-    double trust = 3;             // standard errors that a difference must exceed to be one, [1, 6]
-    double outlier = 5;           // standard deviations beyond which one time alone is a hitch, [trust, 20]
-    int horizon = 64;             // times that the mean of an unchanged decision looks back, [8, 4096]
-    int settled = 16;             // times without a miss after which a new one means another scene, [2, horizon]
-    double blind_step = 0.05;     // detail; a step this long in state 1 with no effect: D has no authority, (0, 1/3)
-    double no_gain = 0.05;        // share of time; all detail lost for less than this is given back, (0, 1)
-    double same_level = 0.05;     // share of time; a hold ends when times have moved by more, (0, 1)
-    double least_width = 0.002;   // detail; a bracket this narrow has a jump in it, (0, 0.1)
-    double return_margin = 0.01;  // detail above 2/3 that a return from state 2 needs, [0, 1/3)
-    int first_patience = 16;      // times; the wait after a failed return from state 2, doubled by each, >= 1
-    int trial = 64;               // a return that lasts for so many times has not failed, >= 1
-    int hold = 2048;              // times; a hold lasts so long, doubled by each in a row, >= 1
-    int longest_wait = 32768;     // times; the most that doubling comes to, >= first_patience and hold
+    double dead_band = 0.005;     // [share of t] a miss up to this is none, [0, 0.2]
+    double headroom = 0.3;        // [sigmas of one time] that frames are aimed below t, [0, 3]
+    double trust = 3;             // [standard errors] a smaller difference may be noise, [1, 6]
+    double outlier = 5;           // [sigmas of one time] one time alone beyond this is a hitch, [trust, 20]
+    int horizon = 64;             // [times] of an unchanged decision that are averaged, [8, 4096]
+    int settled = 16;             // [times] without a miss; the next miss then means another scene, [2, horizon]
+    double blind_step = 0.05;     // [detail] a step of D this long without effect: D has no power, (0, 1/3)
+    double no_gain = 0.05;        // [share of time] detail that gains less than this is given back, (0, 1)
+    double same_level = 0.05;     // [share of time] a hold ends when times have moved by more, (0, 1)
+    double least_width = 0.002;   // [detail] a bracket this narrow has a jump in it, (0, 0.1)
+    double return_margin = 0.01;  // [detail] over 2/3 that a return from state 2 needs, [0, 1/3)
+    int first_patience = 16;      // [times] to wait after a failed return from state 2, doubled by each, >= 1
+    int trial = 64;               // [times] that a return from state 2 must last, or it has failed, >= 1
+    int hold = 2048;              // [times] that a hold lasts, doubled by each in a row, >= 1
+    int longest_wait = 32768;     // [times] the most that doubling comes to, >= first_patience and hold
 
     // Throws std::invalid_argument naming the first broken rule.
     void validate() const;
@@ -41,7 +41,7 @@ struct Dwell {
     bool has_hitch = false;
 };
 
-// What one detail has cost: level [log ms] known to `error` (one standard error).
+// What one detail has cost: a level [log ms], and one standard error of it.
 struct Cost {
     bool is_known = false;
     double detail = 0;
@@ -49,7 +49,7 @@ struct Cost {
     double error = 0;
 };
 
-// Of the times of the present detail.
+// On the times of the present detail.
 enum class Verdict { fine, slow, fast };
 
 // What the machine remembers; the guards and actions of the table are functions of it.
@@ -60,22 +60,24 @@ struct SafeguardedMemory {
     double aim = 0;     // that less the headroom
     double noise = 0;   // standard deviation of log T, robust
     Dwell dwell;
-    int quiet = 0;  // times since the last step or miss; at most `settled`
+    int quiet = 0;  // [times] since the last step or miss; at most `settled`
     Verdict verdict = Verdict::fine;
     double next = 1;   // detail that the verdict asks for
     double slope = 0;  // (dT / d detail) / T at slope_detail; 0: none learned
     double slope_detail = 1;
     Cost fast_end, slow_end;  // the bracket
-    double width = 1;         // of the bracket after the step before
-    Cost before;              // from where the slope is learned next
-    Cost top;                 // where the search went down from
+    double width = 1;         // of the bracket, one step ago
+    Cost before;              // the point that the next slope is measured from
+    Cost top;                 // the point that the search for less detail began at
     bool is_blind = false;    // the last step in state 1 had no effect
     bool is_held = false;     // nothing better is near: wait
     bool is_trial = false;    // the hold has lasted long enough: try the slow end again
-    double held_level = 0;    // [log ms]
-    int held_times = 0, hold = 0;
-    int since_return = 0, wait = 0;  // times since state 2 was last left; those that the next return must wait
-    int since_points = 0;            // times since state 2 was last entered
+    double held_level = 0;    // [log ms] of the times when the hold began
+    int held_times = 0;       // [times] since then
+    int hold = 0;             // [times] that the hold lasts
+    int since_return = 0;     // [times] since state 2 was last left
+    int wait = 0;             // [times] that the next return must wait
+    int since_points = 0;     // [times] since state 2 was last entered
 };
 
 // The first row of the present state whose guard holds is taken, once for every time that answers the last decision and
@@ -91,9 +93,9 @@ struct SafeguardedTransition {
 };
 std::span<const SafeguardedTransition> safeguarded_transitions();
 
-// Decisions lie on the axis of sfsm/detail.h, so D is a share of L wherever L moves, and S in [0.5, 32] px. A time
-// counts for the decision it was drawn with, however late (up to 32 distinct decisions); times of earlier ones are
-// ignored. Under 1 us a frame.
+// Decisions lie on the axis of sfsm/detail.h: D is a share of L wherever L moves, and S is in [0.5, 32] px. A time
+// counts for the decision it was drawn with, up to 32 distinct decisions late; times of earlier answers are ignored.
+// Cost: under 1 us a frame.
 class SafeguardedLaw final : public Controller {
 public:
     explicit SafeguardedLaw(const SafeguardedConstants& constants = {});  // throws as validate() does

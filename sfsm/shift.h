@@ -1,14 +1,13 @@
-// Has the level of a noisy signal shifted? Two-sided, deaf to a single outlier: no clock, no allocation.
+// Has the level of a noisy signal shifted, up or down? A single outlier shifts nothing. No clock, no allocation.
 #pragma once
 
 #include <array>
 
 namespace sfsm {
 
-// Watches residuals in units of their own standard deviation. Each is clipped, so that one alone never shifts
-// anything, and two in a row beyond about 3 do; smaller ones must add up over more samples: the largest of
-// |sum of the last n| / sqrt(n) over n <= window is compared with a threshold (a windowed generalised likelihood
-// ratio).
+// Watches residuals, in units of their standard deviation. It finds a shift where |sum of the last n| / sqrt(n) is over
+// the threshold for some n <= window (a windowed generalised likelihood ratio). Residuals are clipped: one alone never
+// shows a shift, two in a row beyond about 3 do, smaller ones must be more.
 class ShiftDetector {
 public:
     static constexpr int window = 32;         // samples

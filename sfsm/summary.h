@@ -21,8 +21,8 @@ struct Summary {
     std::array<std::int64_t, 3> state_frames{};  // of the frames counted in `frames`
 };
 
-// Measured is a frame with a finite time and a finite target over 0. Of no measured frames: zeros.
-// Percentiles are of the sorted times, nearest rank.
+// Of the measured frames: those with a finite time and a finite target over 0. Zeros where there are none. Percentiles
+// are of the sorted times, nearest rank.
 Summary summarize(std::span<const TraceRow> rows);
 
 // A frame as far as a summary goes, and the same summary of such frames.

@@ -1,4 +1,4 @@
-// Text from files that nobody vouches for: compared, and made fit for a message.
+// Text from files that may hold anything: compared, and made fit for a message.
 #pragma once
 
 #include <string>

@@ -25,9 +25,8 @@ struct WorkPrior {
     double spread;  // 1 sigma of that belief, in shares of it, > 0
     double least;   // the lowest price that is believed, in shares of it, [0, 1)
 
-    // The same for a fit of a recorded run (simulate/cost_fit.h). A law must expect an update to be dear until it has
-    // tried one, as it is where people are skinned; a fit takes it for as cheap as our baked poses, and holds it
-    // loosely.
+    // The same for a fit of recorded frames (simulate/cost_fit.h). A law must expect the dearest update, one that skins
+    // a person, until it has timed some; a fit expects the cheap one of our baked poses, and is unsure.
     double fit_pieces;
     double fit_spread;
 };
@@ -115,7 +114,7 @@ constexpr Work only_on(const Work& work) {
 // More of any kind than a frame can draw.
 inline constexpr std::int64_t most_count = 1'000'000'000'000'000;
 
-// A count to calculate with, also of a file that nobody vouches for: in [0, most_count].
+// A count to calculate with, in [0, most_count]; a file may hold any number.
 constexpr double counted(std::int64_t count) {
     return static_cast<double>(std::clamp<std::int64_t>(count, 0, most_count));
 }

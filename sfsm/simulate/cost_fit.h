@@ -11,10 +11,10 @@
 
 namespace sfsm::simulate {
 
-// How well prices times counts explain the times of a trace.
+// Prices, and how well prices times counts explain the times of a trace.
 struct CostFit {
     Prices prices;            // [ms] each >= 0: robust, non-negative least squares
-    Prices sigma;             // [ms] 1 sigma of each; as large as a usual price where the rows can't tell
+    Prices sigma;             // [ms] 1 sigma of each; where the rows can't tell, as large as the price that is believed
     std::int64_t frames = 0;  // that were fitted
     double r2 = 0;         // 1 - residual / total sum of squares of the times; can be negative; 0 where all are equal
     double median_ms = 0;  // of the times
@@ -23,14 +23,14 @@ struct CostFit {
     std::array<double, 7> residual{};
 };
 
-// The prices of the least Huber loss of time / model - 1: noise is relative, and a pause that takes fifty times as long
-// weighs no more than a frame that is off by the usual noise. Where residuals are like their neighbours, only what is
-// new in each is fitted: a machine's drift is no price. What rows can't tell (a kind of work that was never drawn, or
-// people or updates whose count hardly changed) is settled by a belief: a triangle 1 piece, a point 2, a person 50, an
-// update 4, as our renderer has them, each give or take as much again (1 sigma; an update, which is dear where people
-// are skinned, 300); of triangles and points the known one tells of the other. Against hundreds of frames of some per
-// cent of noise that is weak, and where times have no noise it moves nothing that they tell. So the time of a constant
-// number of people is shared between them and the frame, and triangles that a run has none of are not free.
+// The prices of the least Huber loss of time / model - 1, none below 0. Noise is relative, so residuals are; a pause
+// that takes fifty times as long weighs no more than a frame that is off by the usual noise. Where residuals are like
+// the ones before them, only the differences are fitted: a machine's drift is no price.
+//
+// Rows can't tell the price of a kind that was never drawn, or whose count hardly changed. There a belief decides: the
+// fit_pieces and fit_spread of work_table. Of the kinds of shapes the known ones tell of the others. So the time of a
+// constant number of people is shared between them and the frame, and triangles that were never drawn are not free. The
+// belief is weak against hundreds of frames with some per cent of noise, and moves nothing where there is no noise.
 //
 // Rows without a time, or one more than a thousandfold from the median, are left out. Throws std::runtime_error where
 // fewer than 16 are left, or no work is counted in any.

@@ -18,8 +18,8 @@ public:
     // One more equation: sum of coefficient * unknown = value; finite.
     void add(const Unknowns& coefficients, double value);
 
-    // The unknowns of the least sum of squares, the others 0. Bit i of `free`: unknown i may differ from 0. Of unknowns
-    // that the equations can't tell apart, the last are 0.
+    // The unknowns of the least sum of squares. Bit i of `free`: unknown i may differ from 0; the others are 0. Of
+    // unknowns that the equations can't tell apart, the last are 0.
     Unknowns solve(std::uint32_t free) const;
 
     // What the sum of squares would be.

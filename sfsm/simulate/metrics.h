@@ -9,10 +9,10 @@
 namespace sfsm::simulate {
 
 // T: measured time; t: the user's target; d: the detail of a frame's decision; C: its cost, free of noise.
-// Judged are the frames from statistics_from on that are not interrupted and in which t can be met (the best decision
-// costs no more). Without any: zeros.
+// Judged frames: those from statistics_from on that are not interrupted and in which t can be met (the best decision
+// costs no more). Where there are none, all figures of judged frames are 0.
 struct Metrics {
-    double judged_ms = 0;       // sum of T of judged frames; 0: there are none, and what follows says nothing
+    double judged_ms = 0;       // sum of T of judged frames; 0: there are none
     double over_target = 0;     // share of judged frames with T > t
     double over_5pct = 0;       // ... T > 1.05 t
     double within_5pct = 0;     // ... |T - t| <= 5 % of t
@@ -26,16 +26,16 @@ struct Metrics {
     // whether t can be met or not.
     double quality = 0;
 
-    // Frames from a step of load or target until the law has settled: from then on, in 57 of 60 frames, the running
-    // median of T / t of the last 9 frames is within 10 % of 1. 0: the median never left. A run's is that of its
-    // slowest step; nothing where it did not settle while that load lasted, or there is no such step.
+    // Frames from a step of load or target until the law has settled: the first frame from which on, in 57 of 60
+    // frames, the median of the last 9 T / t is within 10 % of 1. 0: it never left. Of several steps the slowest
+    // counts. Nothing: it did not settle while that load lasted, or there is no such step.
     std::optional<double> settle_down, settle_up;
-    // The same of C instead of the median: what the law did, not what a median of 9 lets pass. 0: the very first frame
-    // drawn under the new load was in band.
+    // The same with C / t instead of the median, so without its delay. 0: the very first frame drawn under the new load
+    // was within 10 %.
     std::optional<double> cost_settle_down, cost_settle_up;
 
-    // Largest C / t - 1 in the judged frames, in percent, at least 0. Left out: from each step on the 1 + delay frames
-    // that no law can have known of, where there is no forecast.
+    // Largest C / t - 1 in the judged frames, in percent, at least 0. Without a forecast no law can know of a step in
+    // its first 1 + delay frames: these are left out.
     double overshoot_pct = 0;
 
     // Of the steady frames: how often d turns around, how far it goes in all, and how often the decision differs from
@@ -44,8 +44,9 @@ struct Metrics {
     double variation_per_1000 = 0;
     double changes_per_1000 = 0;
 
-    // Frames from the end of the last interruption until d is back: within 2 % of its mean in the 60 frames before the
-    // first interruption, in 57 of the next 60 frames. 0: it never left. Nothing: never back, or no interruption.
+    // Frames from the end of the last interruption until d is back. It is back when in 57 of the next 60 frames it is
+    // within 2 % of its mean in the 60 frames before the first interruption. 0: it never left. Nothing: it never came
+    // back, or there is no interruption.
     std::optional<double> recovery;
 };
 

@@ -1,5 +1,5 @@
-// The clairvoyant: it knows what every decision will cost in the frame about to be drawn, all but its noise, and takes
-// the one of most detail that costs no more than the target. What no law can better without knowing the noise.
+// The clairvoyant: it knows what every decision will cost in the frame about to be drawn, except for the noise, and
+// takes the one of most detail that costs no more than the target. No law that doesn't know the noise can do better.
 #pragma once
 
 #include "sfsm/simulate/course.h"

@@ -1,9 +1,8 @@
-// A recorded run as a simulated renderer. What was recorded is the load under its own detail; what a law would have met
-// with decisions of its own is a cost model times that load:
-//   cost(k, decision) = model(work(k, decision)) * load(k),   load(k) = recorded time / model(work(k, recorded
-//   decision)).
-// So the recorded decision costs the recorded time. Of our own traces the model is fitted, and the work of a decision
-// is what the row's forecast says. Of anything else both are the reference crowd's.
+// A recorded run as a simulated renderer, for decisions that were not the recorded ones:
+//   cost(k, decision) = model(work(k, decision)) * load(k)
+//   load(k) = recorded time / model(work(k, recorded decision))
+// So the recorded decision costs the recorded time. For our own traces the model is fitted, and the work of a decision
+// is what the row's forecast says. For anything else both are the reference crowd's.
 #pragma once
 
 #include <span>
@@ -25,10 +24,10 @@ struct RecordedOptions {
 
 // The run in a closed loop, without any noise but what the load brings; frame k is rows[k], whatever its number.
 //
-// Work is interpolated between the steps of a forecast as forecast.h says; a row whose forecast can't be used (none,
-// not in order, not finite) has the one of the last row before it, the first rows that of the first that has one. Rows
-// without a time and a range take theirs in the same way; times a frame can't take (cost_fit.h) are none. Traces of
-// ours in which no row has a forecast are treated as foreign, each decision being read for the reference crowd's range.
+// Work is interpolated between the steps of a forecast as forecast.h says. A forecast can't be used if it is empty, not
+// in order or not finite; a range if it is not finite and over 0; a time if no frame can take it (is_frame_time). Each
+// is then taken from the last row before that has a usable one, or for the first rows from the first that has. A trace
+// of ours in which no row has a forecast is treated as foreign; its D are rescaled to the reference crowd's range.
 //
 // Throws std::runtime_error where no row has a time, as fit_costs does where it is needed, and std::invalid_argument
 // where a target is not one (target.h).

@@ -27,7 +27,7 @@ struct Interruption {
     double ms = 0;  // any number, also none
 };
 
-// Load or target change at once, and that holds for a while.
+// The load or the target changes at once, and stays so for a while.
 struct LoadStep {
     Frames frames;         // under the new load
     bool is_down = false;  // detail has to go down to stay in time
@@ -42,8 +42,8 @@ struct Scenario {
     std::int64_t statistics_from = 200;  // laws may learn before
     int delay = 2;                       // a time arrives before the decision of the frame 1 + delay later, [0, 16]
 
-    // Measured = cost * exp(noise * N(0, 1)), and in a share of frames a spike of target * U(spike_low, spike_high) on
-    // top, then up to the next multiple of refresh_ms.
+    // Measured = cost * exp(noise * N(0, 1)). In a share of the frames a spike of target * U(spike_low, spike_high) is
+    // added. The sum is rounded up to a multiple of refresh_ms.
     double noise = 0;
     double spike_share = 0;
     double spike_low = 0.7, spike_high = 2;

@@ -18,8 +18,9 @@ struct Contestant {
     bool is_retuned = true;  // also takes part with equal-miss
 };
 
-// Laws aim at different set points. `own`: at the target as they were written. `equal-miss`: at the share of it at
-// which as many frames are over 1.05 t as with the reference law, or as nearly as it can be had from below.
+// Laws aim at different set points. `own`: at the target, as they were written. `equal-miss`: at the share of the
+// target at which they miss as often (T > 1.05 t) as the reference law; where none does so exactly, at one that misses
+// less.
 enum class Tuning { own, equal_miss };
 const char* tuning_name(Tuning tuning);
 
@@ -27,7 +28,7 @@ struct Row {
     std::string scenario, law;
     Tuning tuning = Tuning::own;
     double target_factor = 1;
-    // Medians over the seeds, each figure for itself; of a figure that may be missing, that is more than any number.
+    // Medians over the seeds, of each figure by itself. A missing figure counts as more than any number.
     Metrics median;
     double worst_over_5pct = 0;  // of all seeds
     double worst_quality = 0;

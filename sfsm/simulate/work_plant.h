@@ -1,5 +1,5 @@
-// A renderer that can say what it will draw: what a frame costs is prices times counts of work, as in the real one, and
-// the counts of every candidate are known beforehand. The prices are not.
+// A renderer that can say what it will draw. A frame costs prices times counts of work, as in the real one. A law is
+// told the counts of every candidate beforehand, but not the prices.
 #pragma once
 
 #include <functional>
@@ -10,8 +10,8 @@
 
 namespace sfsm::simulate {
 
-// What the camera sees. Nearer than depth x L there are x^farness of the people: a crowd on the far stands has a large
-// farness. Those beyond D are all taken to be about L away, where equation 1 gives f = 1 + theta (L - D).
+// What the camera sees. The share of people nearer than x L is x^farness: a crowd on the far stands has a large
+// farness. People beyond D are all taken to be about L away, where equation 1 gives f = 1 + theta (L - D).
 struct View {
     double people = 0;
     double range = 300;            // L [m]
