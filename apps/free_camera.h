@@ -1,7 +1,7 @@
 // A camera flown by its user.
 #pragma once
 
-#include "render/window.h"
+#include "render/input.h"
 #include "scene/camera_path.h"
 
 namespace apps {

@@ -13,12 +13,12 @@
 #include "apps/stadium_options.h"
 #include "apps/stadium_outputs.h"
 #include "apps/stage.h"
-#include "render/device.h"
-#include "render/frame.h"
-#include "render/headless.h"
+#include "render/gl/device.h"
+#include "render/gl/headless.h"
+#include "render/gl/renderer.h"
+#include "render/gl/timer.h"
+#include "render/gl/window.h"
 #include "render/select.h"
-#include "render/timer.h"
-#include "render/window.h"
 #include "scene/camera_path.h"
 #include "sfsm/controller.h"
 #include "sfsm/detail.h"
@@ -34,15 +34,15 @@ constexpr const char* presets[] = {"still", "close", "medium", "remote", "roam"}
 
 // Where the pictures go: a window, or nowhere. Its context is current.
 struct Surface {
-    std::unique_ptr<render::Window> window;
-    std::unique_ptr<render::HeadlessContext> headless;
+    std::unique_ptr<render::gl::Window> window;
+    std::unique_ptr<render::gl::HeadlessContext> headless;
 
     explicit Surface(const StadiumOptions& options) {
         std::string obstacle;
-        if (!options.headless && render::Window::display_available(&obstacle))
-            window = std::make_unique<render::Window>("Grandstand", options.width, options.height);
+        if (!options.headless && render::gl::Window::display_available(&obstacle))
+            window = std::make_unique<render::gl::Window>("Grandstand", options.width, options.height);
         else
-            headless = std::make_unique<render::HeadlessContext>();
+            headless = std::make_unique<render::gl::HeadlessContext>();
         if (!obstacle.empty()) std::fprintf(stderr, "stadium: %s; drawing without a window\n", obstacle.c_str());
     }
 };
@@ -73,11 +73,11 @@ public:
           controller_(sfsm::make_controller(options.law)),
           path_from_file_(load_path(options.camera)),
           surface_(options),
-          device_(render::read_device()),
+          device_(render::gl::read_device()),
           stage_(build_stage(options.characters, options.people, options.seed, PointCache(options.cache))),
           path_(path_from_file_ ? *path_from_file_ : scene::preset_path(options.camera, stage_->plan)),
-          renderer_(stage_->structure, stage_->plan, stage_->figure_assets(), options.width, options.height),
-          selector_(stage_->crowd, stage_->figures()),
+          renderer_(stage_->structure, stage_->plan, stage_->figures(), options.width, options.height),
+          selector_(stage_->crowd, stage_->cast, stage_->figures()),
           timer_(device_),
           clock_(options.fixed_step || surface_.headless),
           width_(options.width),
@@ -132,7 +132,7 @@ private:
         const float range = selector_.survey(view, 0).range;
         for (const sfsm::State state : {sfsm::State::original, sfsm::State::points}) {
             const sfsm::Decision decision = fixed_decision(options_, state, range);
-            renderer_.draw(view, selector_.select(decision, -1), decision.splat_size);
+            renderer_.draw(selector_.select(decision, -1));
         }
         renderer_.read_image();  // waits for them
     }
@@ -142,7 +142,7 @@ private:
         return render::make_view(pose, width_, height_);
     }
 
-    std::optional<render::FrameTime> draw(std::int64_t frame) {
+    std::optional<render::gl::FrameTime> draw(std::int64_t frame) {
         const render::View view = view_now();
         sfsm::TraceRow row;
         row.frame = frame;
@@ -157,18 +157,18 @@ private:
             row.motion.assign(survey.forecast.motion.begin(), survey.forecast.motion.end());
             row.shapes.assign(survey.forecast.shapes.begin(), survey.forecast.shapes.end());
         }
-        const render::Selection& selection = selector_.select(row.decision, last_tick_);
+        const render::Frame& drawn = selector_.select(row.decision, last_tick_);
         timer_.submit();
-        renderer_.draw(view, selection, row.decision.splat_size);
+        renderer_.draw(drawn);
         const auto time = timer_.end();
-        row.work = selection.work;
+        row.work = drawn.work;
         rows_.push_back(row);
         last_tick_ = clock_.tick();
         return time;
     }
 
     // A time has arrived: it belongs to the decision of its own frame, which may be some frames back.
-    void learn(const render::FrameTime& time) {
+    void learn(const render::gl::FrameTime& time) {
         sfsm::TraceRow& row = rows_[static_cast<std::size_t>(time.frame)];
         row.frame_ms = last_ms_ = time.frame_ms;
         row.cpu_ms = time.cpu_ms;
@@ -178,7 +178,7 @@ private:
 
     // False: the user has left.
     bool follow_user() {
-        render::Window& window = *surface_.window;
+        render::gl::Window& window = *surface_.window;
         const render::Input input = window.poll();
         if (window.closed()) return false;
         if (!flight_ && FreeCamera::steers(input)) {
@@ -264,12 +264,12 @@ private:
     std::unique_ptr<sfsm::Controller> controller_;
     std::optional<scene::CameraPath> path_from_file_;  // read first: a damaged one is known before any work is done
     Surface surface_;
-    render::Device device_;
+    render::gl::Device device_;
     std::unique_ptr<Stage> stage_;
     scene::CameraPath path_;
-    render::Renderer renderer_;
+    render::gl::Renderer renderer_;
     render::Selector selector_;
-    render::FrameTimer timer_;
+    render::gl::FrameTimer timer_;
     SceneClock clock_;
     std::optional<FreeCamera> flight_;  // instead of the path once the user steers
     std::vector<sfsm::TraceRow> rows_;  // one a frame; the times come later

@@ -53,17 +53,10 @@ void add_character(Stage& stage, model::Character character, std::uint64_t seed,
 
 }  // namespace
 
-std::vector<render::Figure> Stage::figures() const {
-    std::vector<render::Figure> figures;
-    for (std::size_t i = 0; i < meshes.size(); ++i)
-        figures.push_back({&cast[i], &poses[i], static_cast<std::uint32_t>(meshes[i].triangle_count()), poses[i].area});
+std::vector<figures::Figure> Stage::figures() const {
+    std::vector<figures::Figure> figures;
+    for (std::size_t i = 0; i < meshes.size(); ++i) figures.push_back({&meshes[i], &poses[i], &points[i]});
     return figures;
-}
-
-std::vector<render::FigureAssets> Stage::figure_assets() const {
-    std::vector<render::FigureAssets> assets;
-    for (std::size_t i = 0; i < meshes.size(); ++i) assets.push_back({&meshes[i], &poses[i], &points[i]});
-    return assets;
 }
 
 std::unique_ptr<Stage> build_stage(const std::vector<std::filesystem::path>& character_files, std::int64_t people,

@@ -8,11 +8,10 @@
 #include <vector>
 
 #include "apps/point_cache.h"
+#include "figures/figure.h"
 #include "model/mesh.h"
 #include "motion/pose_table.h"
 #include "pointsample/point_model.h"
-#include "render/frame.h"
-#include "render/select.h"
 #include "scene/crowd.h"
 #include "scene/stadium.h"
 
@@ -28,8 +27,7 @@ struct Stage {
     std::vector<motion::PoseTable> poses;
     scene::Crowd crowd;
 
-    std::vector<render::Figure> figures() const;
-    std::vector<render::FigureAssets> figure_assets() const;
+    std::vector<figures::Figure> figures() const;  // point into this
 };
 
 // `character_files` empty: the built-in person. Shows progress on a terminal. Throws what the loaders throw.

@@ -9,6 +9,7 @@
 
 #include "pointsample/candidates.h"
 #include "pointsample/farthest_tree.h"
+#include "pointsample/prefix_ladder.h"
 
 namespace pointsample {
 namespace {
@@ -54,10 +55,7 @@ void extend(std::vector<double>& radii, std::span<const std::uint32_t> marks) {
 
 std::vector<std::uint32_t> coverage_marks(std::size_t count) {
     std::vector<std::uint32_t> marks;
-    for (std::size_t octave = 1; octave < count; octave *= 2) {
-        marks.push_back(static_cast<std::uint32_t>(octave));
-        if (octave > 1 && octave + octave / 2 < count) marks.push_back(static_cast<std::uint32_t>(octave + octave / 2));
-    }
+    for (std::uint32_t rung = 0; points_of_rung(rung) < count; ++rung) marks.push_back(points_of_rung(rung));
     marks.push_back(static_cast<std::uint32_t>(count));
     return marks;
 }

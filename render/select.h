@@ -1,38 +1,21 @@
-// What to draw, and how finely: the visible people, each with a pose and either triangles or the first n of its points,
-// gathered so that every batch reads one pose. No GL, no clock.
+// What to draw, and how finely: the visible people, each with a pose and a level of one of the representations,
+// gathered so that every batch reads one pose. No device, no clock.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "motion/pose_table.h"
+#include "figures/choices.h"
+#include "figures/figure.h"
 #include "motion/schedule.h"
-#include "render/figure.h"
 #include "render/forecaster.h"
-#include "render/view.h"
+#include "render/frame.h"
 #include "scene/crowd.h"
 #include "sfsm/decision.h"
 
 namespace render {
-
-// One person as the vertex shader takes it.
-struct Instance {
-    glm::vec3 position;             // [m] feet, camera-relative
-    float scale;                    // [m / model unit]
-    std::int16_t sin_yaw, cos_yaw;  // snorm
-    scene::Palette palette;
-};
-static_assert(sizeof(Instance) == 36);
-
-// People of one character in one pose, drawn alike.
-struct Batch {
-    std::uint32_t character;
-    std::uint32_t pose;
-    std::uint32_t points;  // how many of the character's points each gets; 0 = triangles
-    std::uint32_t first_instance;
-    std::uint32_t instance_count;
-};
 
 struct SelectOptions {
     float theta = motion::default_theta;  // eq. 1's constant [1/m]
@@ -40,15 +23,8 @@ struct SelectOptions {
     // half its points face away: 1.2 puts more than two facing points on every square that is to be covered, and leaves
     // about one in fifty open. Fewer leave more holes, more make people fatter.
     float density = 1.2f;
-    // A person becomes points only where that is the cheaper way: what a point is believed to cost, in triangles.
-    float triangles_per_point = static_cast<float>(sfsm::entry_of(sfsm::WorkKind::point).prior.pieces /
-                                                   sfsm::entry_of(sfsm::WorkKind::triangle).prior.pieces);
-};
-
-struct Selection {
-    std::vector<Instance> instances;
-    std::vector<Batch> batches;  // by character, then triangles before points, pose by pose
-    sfsm::Work work;
+    // What one of each kind of work costs: of all levels that serve a person, the cheapest is drawn.
+    std::array<double, sfsm::work_kinds> pieces = figures::believed_pieces;
 };
 
 // What a view shows, before anything is decided about it.
@@ -60,27 +36,29 @@ struct Survey {
 // A frame is surveyed, then selected from. Reuses its memory: after the first frames nothing is allocated.
 class Selector {
 public:
-    // All must outlive the selector. `figures` in the order of Crowd::character.
-    Selector(const scene::Crowd& crowd, std::span<const Figure> figures, SelectOptions options = {});
+    // All must outlive the selector. `cast` and `figures` in the order of Crowd::character.
+    Selector(const scene::Crowd& crowd, std::span<const scene::CastMember> cast,
+             std::span<const figures::Figure> figures, SelectOptions options = {});
 
     // Finds the visible people at `tick`, and what drawing them would cost.
     const Survey& survey(const View& view, std::int64_t tick);
 
     // The surveyed people under `decision`; those whose motion was due since `last_tick` are counted as moved.
-    const Selection& select(const sfsm::Decision& decision, std::int64_t last_tick);
+    const Frame& select(const sfsm::Decision& decision, std::int64_t last_tick);
 
 private:
     struct Candidate {
         std::uint32_t bucket;  // of its batch
         bool moved;
+        bool slowed;  // moves less often than every frame
         Instance instance;
     };
-    // A character as people of it are judged: its buckets, level by level (0 = triangles), in each a bucket a pose.
+    // What is known of a character beforehand.
     struct Kind {
-        std::uint32_t first_bucket = 0;
-        std::uint32_t levels = 0;
-        glm::vec3 center{
-            0.0f};  // of a ball around the character in every pose, on the axis it turns about [model units]
+        figures::Choices choices;
+        std::uint32_t first_bucket = 0;  // choice by choice, in each a bucket a pose
+        // A ball around the character in every pose, on the axis that it turns about [model units].
+        glm::vec3 center{0.0f};
         float radius = 0;
     };
     static constexpr float unseen = -1.0f;
@@ -88,16 +66,16 @@ private:
     void find_visible(std::size_t block_index);
     void forecast();
     Candidate consider(std::size_t person, const sfsm::Decision& decision, std::int64_t last_tick) const;
-    std::uint32_t level_of(std::size_t character, float points) const;
     float scale_of(std::size_t person) const;  // [m / model unit]
-    float points_at_unit_splat(std::size_t person) const;
+    float demand_at_unit_splat(std::size_t person) const;
     void gather();
     void batch(std::uint32_t character);
     template <typename Visit>
     void for_each_visible(Visit visit) const;
 
     const scene::Crowd& crowd_;
-    std::vector<Figure> figures_;
+    std::span<const scene::CastMember> cast_;
+    std::vector<figures::Figure> figures_;
     SelectOptions options_;
     std::vector<Kind> kinds_;
 
@@ -111,16 +89,7 @@ private:
 
     std::vector<Candidate> candidates_;        // one a person; only visible people's are of this frame
     std::vector<std::uint32_t> bucket_begin_;  // per bucket, then the total
-    Selection selection_;
+    Frame frame_;
 };
-
-// The numbers of points that are drawn: powers of two and their halfway marks. Level 0 stands
-// for triangles.
-std::uint32_t level_points(std::uint32_t level);  // 1, 2, 3, 4, 6, 8, 12, 16, 24 ... for levels 1 to 32
-// The lowest level with at least `points` points; 33 if that is beyond level 32.
-std::uint32_t level_for(float points);
-
-// Prefixes of up to this many points are drawn with looks of their own (pointsample::prefix_looks).
-inline constexpr std::uint32_t longest_averaged_prefix = 32;
 
 }  // namespace render

@@ -16,13 +16,14 @@ constexpr std::int64_t tick_range = 36'000;  // ten minutes
 // Where a person's vertices are at a tick.
 class Posture {
 public:
-    Posture(const scene::Crowd& crowd, std::size_t person, const Figure& figure, std::int64_t tick)
-        : table_(*figure.poses),
-          placement_(scene::place(crowd, person, *figure.member, tick)),
+    Posture(const scene::Crowd& crowd, std::size_t person, const scene::CastMember& member,
+            const motion::PoseTable& table, std::int64_t tick)
+        : table_(table),
+          placement_(scene::place(crowd, person, member, tick)),
           scale_(crowd.height[person] / table_.rest_height),
           sin_(std::sin(placement_.yaw)),
           cos_(std::cos(placement_.yaw)) {
-        const scene::Action action = scene::act(crowd, person, *figure.member, table_, tick);
+        const scene::Action action = scene::act(crowd, person, member, table_, tick);
         vertices_ = &table_.vertices[static_cast<std::size_t>(table_.pose_at(action.clip, action.clip_tick)) *
                                      static_cast<std::size_t>(table_.vertex_count)];
     }
@@ -51,16 +52,17 @@ double apart(const Posture& a, const Posture& b, int vertex_count) {
     return sum / count;
 }
 
-Staleness measure(const scene::Crowd& crowd, const Figure& figure, std::span<const std::size_t> people) {
+Staleness measure(const scene::Crowd& crowd, const scene::CastMember& member, const motion::PoseTable& table,
+                  std::span<const std::size_t> people) {
     std::array<double, motion::max_period> by_age{};
     const std::size_t step = (people.size() + most_people - 1) / most_people;
     std::int64_t look = 0;
     for (std::size_t i = 0; i < people.size(); i += step) {
         for (int n = 0; n < looks; ++n, ++look) {
             const std::int64_t tick = look * tick_stride % tick_range;
-            const Posture now(crowd, people[i], figure, tick);
+            const Posture now(crowd, people[i], member, table, tick);
             for (int age = 1; age < motion::max_period; ++age)
-                by_age[age] += apart(now, Posture(crowd, people[i], figure, tick - age), figure.poses->vertex_count);
+                by_age[age] += apart(now, Posture(crowd, people[i], member, table, tick - age), table.vertex_count);
         }
     }
     Staleness result{};
@@ -75,14 +77,16 @@ Staleness measure(const scene::Crowd& crowd, const Figure& figure, std::span<con
 }  // namespace
 
 std::vector<std::array<Staleness, scene::role_count>> measure_staleness(const scene::Crowd& crowd,
-                                                                        std::span<const Figure> figures) {
+                                                                        std::span<const scene::CastMember> cast,
+                                                                        std::span<const figures::Figure> figures) {
     std::vector<std::array<std::vector<std::size_t>, scene::role_count>> people(figures.size());
     for (std::size_t person = 0; person < crowd.size(); ++person)
         people[crowd.character[person]][static_cast<std::size_t>(crowd.role[person])].push_back(person);
     std::vector<std::array<Staleness, scene::role_count>> result(figures.size());
     for (std::size_t character = 0; character < figures.size(); ++character)
         for (int role = 0; role < scene::role_count; ++role)
-            result[character][role] = measure(crowd, figures[character], people[character][role]);
+            result[character][role] =
+                measure(crowd, cast[character], *figures[character].poses, people[character][role]);
     return result;
 }
 

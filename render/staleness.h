@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "figures/figure.h"
 #include "motion/schedule.h"
-#include "render/figure.h"
 #include "scene/crowd.h"
 
 namespace render {
@@ -19,6 +19,7 @@ using Staleness = std::array<float, motion::max_period + 1>;
 // By character, then role; zero for a role that nobody has. A few hundred people of each are looked at, at ticks spread
 // over some minutes: tens of milliseconds a character.
 std::vector<std::array<Staleness, scene::role_count>> measure_staleness(const scene::Crowd& crowd,
-                                                                        std::span<const Figure> figures);
+                                                                        std::span<const scene::CastMember> cast,
+                                                                        std::span<const figures::Figure> figures);
 
 }  // namespace render

@@ -1,4 +1,4 @@
-// What C++ and the shaders must agree on. Included by both: render/frame.cpp checks the sizes and offsets.
+// What C++ and the shaders must agree on. Included by both: render/gl/renderer.cpp checks the sizes and offsets.
 #ifdef __cplusplus
 #pragma once
 #include <glm/glm.hpp>
@@ -6,12 +6,18 @@ namespace render {
 using vec4 = glm::vec4;
 using mat4 = glm::mat4;
 #define CONSTANT inline constexpr int
-#define BLOCK_BEGIN(name, binding) inline constexpr int name##_binding = binding; struct name##Block {
-#define BLOCK_END(name) };
+#define BLOCK_BEGIN(name, binding)                 \
+    inline constexpr int name##_binding = binding; \
+    struct name##Block {
+#define BLOCK_END(name) \
+    }                   \
+    ;
 #else
 #define CONSTANT const int
 #define BLOCK_BEGIN(name, slot) layout(std140, binding = slot) uniform name##Block {
-#define BLOCK_END(name) } name;
+#define BLOCK_END(name) \
+    }                   \
+    name;
 #endif
 
 // Vertex attributes of people: baked vertices, then the instance.
@@ -20,7 +26,8 @@ CONSTANT attribute_normal = 1;     // snorm 8 x 2, octahedral
 CONSTANT attribute_color = 2;      // unorm 8 x 3, sRGB
 CONSTANT attribute_look = 3;       // uint 8: tint in the low 3 bits, texture layer above, no_layer = none; of points:
                                    // 1 = stands for both sides of the body, seen from everywhere
-CONSTANT attribute_uv = 4;         // half x 2; of points instead: unorm 8 x 4, shares of the palette
+CONSTANT attribute_uv = 4;         // of vertices: half x 2
+CONSTANT attribute_shares = 4;     // of points: unorm 8 x 4, shares of the palette
 CONSTANT attribute_placement = 5;  // camera-relative position [m], scale
 CONSTANT attribute_turn = 6;       // snorm 16 x 2: sin, cos of the yaw
 CONSTANT attribute_palette = 7;    // uint 32 x 4: sRGB of skin, hair, shirt, trousers
@@ -36,23 +43,23 @@ CONSTANT texture_unit_layers = 0;
 
 // Once a frame.
 BLOCK_BEGIN(Frame, 0)
-    mat4 clip_from_camera_relative;  // world axes, camera at the origin, to clip space; reversed depth
-    vec4 camera_position;            // [m] world
-    vec4 sun_direction;              // towards the sun, unit
-    vec4 sun_color;                  // linear
-    vec4 sky_light;                  // linear, from above
-    vec4 ground_light;               // linear, from below
-    vec4 view_right;                 // world; length = tan of half the horizontal field of view
-    vec4 view_up;                    // world; length = tan of half the vertical one
-    vec4 view_forward;               // world; unit
-    vec4 oval;                       // half straight, radius of the inner line [m], stands' inner offset [m], unused
-    vec4 splat;                      // x: splat size [px]; y: pixels that a metre covers at a depth of one metre
+mat4 clip_from_camera_relative;  // world axes, camera at the origin, to clip space; reversed depth
+vec4 camera_position;            // [m] world
+vec4 sun_direction;              // towards the sun, unit
+vec4 sun_color;                  // linear
+vec4 sky_light;                  // linear, from above
+vec4 ground_light;               // linear, from below
+vec4 view_right;                 // world; length = tan of half the horizontal field of view
+vec4 view_up;                    // world; length = tan of half the vertical one
+vec4 view_forward;               // world; unit
+vec4 oval;                       // half straight, radius of the inner line [m], stands' inner offset [m], unused
+vec4 splat;                      // x: splat size [px]; y: pixels that a metre covers at a depth of one metre
 BLOCK_END(Frame)
 
 // Once a character.
 BLOCK_BEGIN(Figure, 1)
-    vec4 box_min;   // [model units]; w: 1 = seen from both sides
-    vec4 box_size;  // [model units]; w: side of a square as large as the silhouette
+vec4 box_min;   // [model units]; w: 1 = seen from both sides
+vec4 box_size;  // [model units]; w: side of a square as large as the silhouette
 BLOCK_END(Figure)
 
 #ifdef __cplusplus

@@ -1,4 +1,6 @@
 // The stadium itself: world positions, lit per vertex; the ground is painted per fragment.
+#include "light.glsl"
+
 layout(location = attribute_static_position) in vec3 world_position;
 layout(location = attribute_static_normal) in vec3 normal;
 layout(location = attribute_static_color) in vec4 vertex_color;

@@ -136,9 +136,9 @@ TEST_P(Pixels, AreWhatTheyWere) {
     EXPECT_EQ(drawn.pixels + " " + drawn.counts, table.at(GetParam().name));
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Pixels, testing::ValuesIn(pictures()), [](const auto& info) {
+INSTANTIATE_TEST_SUITE_P(Of, Pixels, testing::ValuesIn(pictures()), [](const auto& picture) {
     std::string title;
-    for (const char c : info.param.name) title += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+    for (const char c : picture.param.name) title += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
     return title;
 });
 

@@ -1,5 +1,5 @@
 // Which display a window is on, and what it makes of its user's keys.
-#include "render/window.h"
+#include "render/gl/window.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "render/frame.h"
+#include "render/gl/renderer.h"
 #include "tests/apps/compositor.h"
 #include "tests/apps/environment.h"
 #include "tests/apps/xvfb.h"
@@ -39,7 +39,7 @@ const std::string dead_wayland = "wayland-nowhere";
 
 std::string refusal_of_a_window() {
     try {
-        const render::Window window("none", 64, 64);
+        const render::gl::Window window("none", 64, 64);
     } catch (const std::runtime_error& error) {
         return error.what();
     }
@@ -54,8 +54,8 @@ std::ptrdiff_t open_descriptors() {
 TEST(WindowDisplay, SaysWhichNamedOnesDoNotAnswer) {
     const tests::Environment environment({{"DISPLAY", dead_x11}, {"WAYLAND_DISPLAY", dead_wayland}});
     std::string obstacle;
-    EXPECT_FALSE(render::Window::display_available(&obstacle));
-    EXPECT_FALSE(render::Window::display_available());
+    EXPECT_FALSE(render::gl::Window::display_available(&obstacle));
+    EXPECT_FALSE(render::gl::Window::display_available());
     for (const std::string& text : {obstacle, refusal_of_a_window()}) {
         EXPECT_NE(text.find("(DISPLAY=" + dead_x11 + ": "), std::string::npos) << text;
         EXPECT_NE(text.find("; WAYLAND_DISPLAY=" + dead_wayland + ": "), std::string::npos) << text;
@@ -65,7 +65,7 @@ TEST(WindowDisplay, SaysWhichNamedOnesDoNotAnswer) {
 TEST(WindowDisplay, HasNoObstacleWhereNoneIsNamed) {
     const tests::Environment environment({{"DISPLAY", std::nullopt}, {"WAYLAND_DISPLAY", ""}});
     std::string obstacle = "as it was";
-    EXPECT_FALSE(render::Window::display_available(&obstacle));
+    EXPECT_FALSE(render::gl::Window::display_available(&obstacle));
     EXPECT_EQ(obstacle, "as it was");
     EXPECT_NE(refusal_of_a_window().find("none is named"), std::string::npos);
 }
@@ -76,7 +76,7 @@ TEST(WindowDisplay, IsLeftAgainOnceItIsKnownToAnswer) {
     const tests::Environment environment({{"DISPLAY", server.display()}, {"WAYLAND_DISPLAY", dead_wayland}});
     std::string obstacle = "as it was";
     const auto before = open_descriptors();
-    EXPECT_TRUE(render::Window::display_available(&obstacle));
+    EXPECT_TRUE(render::gl::Window::display_available(&obstacle));
     EXPECT_EQ(open_descriptors(), before);
     EXPECT_EQ(obstacle, "as it was");
 }
@@ -90,7 +90,7 @@ TEST(WindowDisplay, IsX11WhereWaylandAnswersToo) {
                                           {"WAYLAND_DISPLAY", compositor.display()},
                                           {"XDG_RUNTIME_DIR", compositor.runtime_directory()},
                                           {"XDG_SESSION_TYPE", "wayland"}});
-    const render::Window window("on X11", 64, 64);
+    const render::gl::Window window("on X11", 64, 64);
     Display* display = XOpenDisplay(nullptr);
     ASSERT_NE(display, nullptr);
     EXPECT_NE(newest_window(display), 0u);
@@ -102,7 +102,7 @@ TEST(WindowDisplay, GivesStderrBack) {
     const tests::Environment environment({{"DISPLAY", dead_x11}, {"WAYLAND_DISPLAY", dead_wayland}});
     testing::internal::CaptureStderr();
     const auto before = open_descriptors();
-    render::Window::display_available();
+    render::gl::Window::display_available();
     EXPECT_EQ(open_descriptors(), before);
     std::fputs("still here", stderr);
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "still here");
@@ -167,7 +167,7 @@ protected:
         XSync(display_, False);
     }
 
-    std::optional<render::Window> window_;
+    std::optional<render::gl::Window> window_;
 
 private:
     void send_button(int type, unsigned int button) {
@@ -288,10 +288,12 @@ TEST_F(WindowKeys, EscapeClosesIt) {
 // The renderer's target reaches the window the right way up and, in a window of its size, pixel by pixel.
 TEST_F(WindowKeys, ShowsWhatWasDrawn) {
     const scene::StaticMesh nothing{{{}, {}, {}}, {0, 0, 0}, {}};
-    render::Renderer renderer(nothing, {}, {}, window_->width(), window_->height());
+    render::gl::Renderer renderer(nothing, {}, {}, window_->width(), window_->height());
     // The sun's glow is in the upper left.
     const render::View view = render::make_view({{0, 0, 0}, {0.2, 0.1, 1.0}, 1.2}, window_->width(), window_->height());
-    renderer.draw(view, {}, 0);
+    render::Frame nobody;
+    nobody.view = view;
+    renderer.draw(nobody);
     const render::Image drawn = renderer.read_image();
     renderer.present(window_->width(), window_->height());
     std::vector<std::uint8_t> shown(drawn.pixels.size());

@@ -11,32 +11,34 @@
 
 namespace {
 
-constexpr std::array<sfsm::MotionStep, 3> motion{
-    {{std::numeric_limits<double>::infinity(), 20000, 0}, {128, 15000, 0.125}, {32, 6000, 0.5}}};
-constexpr std::array<sfsm::SplatStep, 5> splats{{{0, 8'000'000, 0, 0},
-                                                 {0.75, 1'000'000, 6'000'000, 0.25},
-                                                 {1, 700'000, 3'500'000, 0.5},
-                                                 {2, 400'000, 900'000, 1},
-                                                 {8, 100'000, 60'000, 4}}};
+constexpr double everywhere = std::numeric_limits<double>::infinity();
+constexpr std::array<sfsm::Step, 3> motion{{{everywhere, {0, 0, 0, 20000}, 0},  //
+                                            {128, {0, 0, 0, 15000}, 0.125},
+                                            {32, {0, 0, 0, 6000}, 0.5}}};
+constexpr std::array<sfsm::Step, 5> shapes{{{0, {0, 8'000'000, 0, 0}, 0},
+                                            {0.75, {0, 1'000'000, 6'000'000, 0}, 0.25},
+                                            {1, {0, 700'000, 3'500'000, 0}, 0.5},
+                                            {2, {0, 400'000, 900'000, 0}, 1},
+                                            {8, {0, 100'000, 60'000, 0}, 4}}};
 
 // The work of the step that a decision is nearest to.
 sfsm::Work work_of(const sfsm::Decision& decision) {
-    sfsm::Work work{20000, splats[0].triangles, 0, motion[0].updates};
-    for (const sfsm::SplatStep& step : splats) {
-        if (step.size > decision.splat_size) break;
-        work.triangles = step.triangles;
-        work.points = step.points;
-    }
-    for (const sfsm::MotionStep& step : motion)
-        if (decision.state != sfsm::State::original && step.distance >= decision.motion_distance)
-            work.motion_updates = step.updates;
+    sfsm::Work moved = motion[0].work, drawn = shapes[0].work;
+    for (const sfsm::Step& step : shapes)
+        if (step.setting <= decision.splat_size) drawn = step.work;
+    for (const sfsm::Step& step : motion)
+        if (decision.state != sfsm::State::original && step.setting >= decision.motion_distance) moved = step.work;
+    sfsm::Work work{20000};
+    work += moved;
+    work += drawn;
     return work;
 }
 
 // [ms]; sums of eighths, which no compiler can round in another way.
 double cost_of(const sfsm::Work& work) {
-    const std::int64_t eighths =
-        10 + work.people / 2000 + work.triangles / 25000 + work.points / 12500 + work.motion_updates / 2500;
+    constexpr std::array<std::int64_t, sfsm::work_kinds> in_an_eighth{2000, 25000, 12500, 2500};
+    std::int64_t eighths = 10;
+    for (std::size_t kind = 0; kind < work.counts.size(); ++kind) eighths += work.counts[kind] / in_an_eighth[kind];
     return static_cast<double>(eighths) / 8;
 }
 
@@ -44,7 +46,7 @@ double cost_of(const sfsm::Work& work) {
 
 int main() {
     const std::unique_ptr<sfsm::Controller> law = sfsm::make_controller("predictive");
-    const sfsm::Forecast forecast{20000, motion, splats};
+    const sfsm::Forecast forecast{20000, motion, shapes};
     for (std::int64_t frame = 0; frame < 100; ++frame) {
         const sfsm::Decision decision = law->decide({frame < 50 ? 33.0 : 16.0, 200, &forecast});
         const sfsm::Work work = work_of(decision);

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "render/headless.h"
+#include "render/gl/headless.h"
 #include "tests/bench/canvas.h"
 #include "tests/reference/stadium.h"
 
@@ -53,7 +53,7 @@ int number(const std::string& text) {
 }
 
 void shoot_all(const std::string& folder, int people, int width, int height) {
-    const render::HeadlessContext context;
+    const render::gl::HeadlessContext context;
     const tests::SmallScene scene(people);
     reference::Stadium stadium(scene, width, height);
     constexpr std::int64_t tick = 1234;

@@ -7,16 +7,15 @@ Stadium::Stadium(const tests::SmallScene& scene, int width, int height)
       width_(width),
       height_(height),
       structure_(scene::build_structure(scene.plan)),
-      renderer_(structure_, scene.plan,
-                std::vector<render::FigureAssets>{{&scene.person.mesh, &scene.poses[0], &scene.points}}, width, height),
-      selector_(scene.crowd, scene.figures()) {
+      renderer_(structure_, scene.plan, scene.figures(), width, height),
+      selector_(scene.crowd, scene.cast, scene.figures()) {
     figures_.emplace_back(scene.person, scene::cast(scene.person).clips, &scene.points);
 }
 
 Frame Stadium::shoot(const scene::CameraPose& pose, const sfsm::Decision& decision, std::int64_t tick) {
     const render::View view = render::make_view(pose, width_, height_);
     selector_.survey(view, tick);
-    renderer_.draw(view, selector_.select(decision, tick - 1), decision.splat_size);
+    renderer_.draw(selector_.select(decision, tick - 1));
     Scene scene{{pose, width_, height_}, {}, &structure_, scene_.plan.oval, scene_.plan.stand_offset,
                 decision.splat_size};
     scene.people = people_of(scene_.crowd, scene_.cast, scene_.poses, figures_, scene.camera, decision, tick);

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "render/frame.h"
+#include "render/gl/renderer.h"
 #include "render/select.h"
 #include "tests/reference/picture.h"
 #include "tests/render/small_scene.h"
@@ -30,7 +30,7 @@ private:
     int width_, height_;  // [px]
     scene::StaticMesh structure_;
     std::vector<Figure> figures_;
-    render::Renderer renderer_;
+    render::gl::Renderer renderer_;
     render::Selector selector_;
 };
 

@@ -2,6 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "figures/representation.h"
 
 namespace reference {
 
@@ -13,10 +18,26 @@ Model::Model(model::Character from, std::vector<int> played, std::size_t point_c
     poses = motion::bake_poses(character, clips, points.surface, byte_budget);
 }
 
-render::Selection selection_of(std::span<const Person> people, std::span<const Model* const> models,
-                               const render::View& view) {
+namespace {
+
+// The level that a person of so many points is drawn at; of none, triangles.
+std::pair<std::uint32_t, figures::Level> level_of(const figures::Figure& figure, std::size_t points) {
+    const auto all = figures::representations();
+    for (std::uint32_t i = 0; i < all.size(); ++i) {
+        for (const figures::Level& level : all[i].levels(figure))
+            if (points == 0 ? all[i].is_mesh : !all[i].is_mesh && level.count == points) return {i, level};
+    }
+    throw std::logic_error("no level of " + std::to_string(points) + " points");
+}
+
+}  // namespace
+
+render::Frame frame_of(std::span<const Person> people, std::span<const Model* const> models, const render::View& view,
+                       double splat_size) {
     constexpr double snorm = 32767;
-    render::Selection selection;
+    render::Frame frame;
+    frame.view = view;
+    frame.splat_size = splat_size;
     for (const Person& person : people) {
         render::Instance instance;
         instance.position = glm::vec3(person.origin - view.position);
@@ -28,11 +49,12 @@ render::Selection selection_of(std::span<const Person> people, std::span<const M
                                      [&](const Model* model) { return &model->figure == person.figure; });
         const auto character = static_cast<std::uint32_t>(of - models.begin());
         const auto pose = static_cast<std::uint32_t>((*of)->poses.pose_at(person.slot, person.tick));
-        selection.batches.push_back({character, pose, static_cast<std::uint32_t>(person.points),
-                                     static_cast<std::uint32_t>(selection.instances.size()), 1});
-        selection.instances.push_back(instance);
+        const auto [representation, level] = level_of((*of)->product(), person.points);
+        frame.batches.push_back({character, representation, level.first, level.count, pose,
+                                 static_cast<std::uint32_t>(frame.instances.size()), 1});
+        frame.instances.push_back(instance);
     }
-    return selection;
+    return frame;
 }
 
 }  // namespace reference

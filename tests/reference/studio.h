@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "pointsample/sample.h"
-#include "render/frame.h"
+#include "render/gl/renderer.h"
 #include "tests/reference/picture.h"
 
 namespace reference {
@@ -21,13 +21,13 @@ struct Model {
     Model(const Model&) = delete;
     Model& operator=(const Model&) = delete;
 
-    render::FigureAssets assets() const { return {&character.mesh, &poses, &points}; }
+    figures::Figure product() const { return {&character.mesh, &poses, &points}; }
 };
 
 // Whom a renderer is to draw, as it takes it: one batch a person, in their order. Each is of one of the models, whose
 // places are the characters' numbers.
-render::Selection selection_of(std::span<const Person> people, std::span<const Model* const> models,
-                               const render::View& view);
+render::Frame frame_of(std::span<const Person> people, std::span<const Model* const> models, const render::View& view,
+                       double splat_size);
 
 // Colours of which no two could be taken for one another.
 inline const scene::Palette motley{{230, 60, 50, 255}, {40, 200, 70, 255}, {60, 80, 240, 255}, {240, 220, 60, 255}};

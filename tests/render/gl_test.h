@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "render/headless.h"
+#include "render/gl/headless.h"
 
 namespace tests {
 
@@ -15,14 +15,14 @@ class GlTest : public testing::Test {
 protected:
     void SetUp() override {
         try {
-            context_ = std::make_unique<render::HeadlessContext>();
+            context_ = std::make_unique<render::gl::HeadlessContext>();
         } catch (const std::exception& error) {
             GTEST_SKIP() << "NO OPENGL CONTEXT, NOTHING IS TESTED HERE: " << error.what();
         }
     }
 
 private:
-    std::unique_ptr<render::HeadlessContext> context_;
+    std::unique_ptr<render::gl::HeadlessContext> context_;
 };
 
 }  // namespace tests

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <string>
 
-#include "render/device.h"
-#include "render/program.h"
+#include "render/gl/device.h"
+#include "render/gl/program.h"
 #include "tests/render/gl_test.h"
 
 namespace {
@@ -18,7 +18,7 @@ struct Member {
 };
 
 // The driver's offset of a member of a uniform block; -1 where the program doesn't use it.
-GLint offset_in(const render::Program& program, const std::string& member) {
+GLint offset_in(const render::gl::Program& program, const std::string& member) {
     const char* name = member.c_str();
     GLuint index = GL_INVALID_INDEX;
     glGetUniformIndices(program.name(), 1, &name, &index);
@@ -46,14 +46,14 @@ TEST_F(Layout, UniformBlocksHaveTheOffsetsOfTheirStructs) {
         {"FigureBlock.box_min", offsetof(FigureBlock, box_min)},
         {"FigureBlock.box_size", offsetof(FigureBlock, box_size)},
     };
-    const render::Program programs[] = {
-        render::build_program("person.vert", "person_points.frag", {"POINTS"}),
-        render::build_program("structure.vert", "structure.frag", {"GROUND"}),
-        render::build_program("sky.vert", "sky.frag"),
+    const render::gl::Program programs[] = {
+        render::gl::build_program("person_points.vert", "person_points.frag"),
+        render::gl::build_program("structure.vert", "structure.frag", {"GROUND"}),
+        render::gl::build_program("sky.vert", "sky.frag"),
     };
     for (const Member& member : members) {
         bool used = false;
-        for (const render::Program& program : programs) {
+        for (const render::gl::Program& program : programs) {
             const GLint offset = offset_in(program, member.name);
             if (offset < 0) continue;
             used = true;
@@ -65,16 +65,16 @@ TEST_F(Layout, UniformBlocksHaveTheOffsetsOfTheirStructs) {
 
 TEST_F(Layout, RefusedShaderNamesItsFile) {
     try {
-        render::build_program("person.vert", "person_points.frag", {"POINTS", "main not_a_function"});
+        render::gl::build_program("person_points.vert", "person_points.frag", {"main not_a_function"});
         FAIL() << "the driver took nonsense";
     } catch (const std::exception& error) {
-        EXPECT_NE(std::string(error.what()).find("shaders/person.vert"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("shaders/person_points.vert"), std::string::npos) << error.what();
         EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
     }
 }
 
 TEST_F(Layout, DeviceSaysWhatDraws) {
-    const render::Device device = render::read_device();
+    const render::gl::Device device = render::gl::read_device();
     EXPECT_FALSE(device.renderer.empty());
     EXPECT_EQ(device.renderer.find("llvmpipe") != std::string::npos, device.software) << device.renderer;
 }

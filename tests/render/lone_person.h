@@ -83,9 +83,7 @@ struct LonePeople {
         }
     }
 
-    std::vector<render::Figure> figures() const {
-        return {{&cast[0], &poses[0], static_cast<std::uint32_t>(character.mesh.triangle_count()), poses[0].area}};
-    }
+    std::vector<figures::Figure> figures() const { return {{&character.mesh, &poses[0], nullptr}}; }
 };
 
 }  // namespace tests

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "render/select.h"
+#include "tests/render/batches.h"
 #include "tests/render/lone_person.h"
 #include "tests/render/small_scene.h"
 
@@ -48,7 +49,7 @@ TEST(LonePerson, IsSelectedAtEveryEdgeOfTheView) {
     // One wide block as well, so that the person is judged and not their block.
     tests::LonePeople lone(tests::make_lift(body_half, 0, 0.5, 1), {&feet, 1});
     lone.crowd.blocks[0].box = {feet - 50.0f, feet + 50.0f};
-    Selector selector(lone.crowd, lone.figures());
+    Selector selector(lone.crowd, lone.cast, lone.figures());
     std::mt19937_64 random(1);
     const auto unit = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
     int shown = 0, kept = 0;
@@ -72,7 +73,7 @@ TEST(LonePerson, IsSelectedAtEveryEdgeOfTheView) {
 TEST(LonePerson, IsDrawnWholeByWhoeverStandsInThem) {
     const glm::vec3 feet(0, 0, 0);
     const tests::LonePeople lone(tests::make_lift(body_half, 0, 0.5, 8), {&feet, 1}, 4000);
-    Selector selector(lone.crowd, lone.figures());
+    Selector selector(lone.crowd, lone.cast, lone.figures());
     for (const double ahead : {-0.2, -0.05, 0.0, 0.05, 0.1}) {
         // Their middle is behind the camera or just before it, their front in view.
         const render::View view = view_from({0, 0.9, ahead}, {0, 0, 1}, 1.4);
@@ -83,19 +84,25 @@ TEST(LonePerson, IsDrawnWholeByWhoeverStandsInThem) {
             EXPECT_GE(step.loss_px, 0);
             EXPECT_EQ(step.work[sfsm::WorkKind::point], 0) << "S = " << step.setting;
         }
-        const render::Selection& selection = selector.select({State::points, 10, 32}, -1);
+        const render::Frame& selection = selector.select({State::points, 10, 32}, -1);
         ASSERT_EQ(selection.batches.size(), 1u);
-        EXPECT_EQ(selection.batches[0].points, 0u) << "millimetres away nothing but triangles will do";
+        EXPECT_EQ(tests::points_each(selection.batches[0]), 0u) << "millimetres away nothing but triangles will do";
     }
+}
+
+render::SelectOptions at_price(double of_a_point) {
+    render::SelectOptions options;
+    options.pieces[sfsm::index_of(sfsm::WorkKind::point)] = of_a_point;
+    return options;
 }
 
 // The number of points that a person has at view depth `depth` under S.
 std::uint32_t points_at(const tests::LonePeople& lone, double depth, double splat_size,
                         render::SelectOptions options = {}) {
-    Selector selector(lone.crowd, lone.figures(), options);
+    Selector selector(lone.crowd, lone.cast, lone.figures(), options);
     selector.survey(view_from({0, 0.9, depth}, {0, 0, -1}), 0);
-    const render::Selection& selection = selector.select({State::points, 10, splat_size}, -1);
-    return selection.batches.size() == 1 ? selection.batches[0].points : ~0u;
+    const render::Frame& selection = selector.select({State::points, 10, splat_size}, -1);
+    return selection.batches.size() == 1 ? tests::points_each(selection.batches[0]) : ~0u;
 }
 
 TEST(LonePerson, HasTwoPointsHoweverSmall) {
@@ -131,7 +138,7 @@ TEST(LonePerson, HasNoMorePointsThanTheirTrianglesAreWorth) {
         std::uint32_t most = 0;
         bool changed = false;
         for (double depth = 1000; depth > 1; depth *= 0.93) {
-            const std::uint32_t points = points_at(lone, depth, 2, {.triangles_per_point = price});
+            const std::uint32_t points = points_at(lone, depth, 2, at_price(static_cast<double>(price)));
             ASSERT_NE(points, ~0u);
             EXPECT_LE(price * static_cast<float>(points), static_cast<float>(triangles)) << depth << " m";
             EXPECT_TRUE(points == 0 || !changed) << "nearer than triangles there are no points again";
@@ -162,7 +169,7 @@ TEST(LonePerson, StaysAsTheyWereUntilTheyAreDue) {
         tests::LonePeople lone(tests::make_lift(body_half, 0.5f, 4, 1), {&place, 1});
         lone.crowd.role[0] = role;
         lone.crowd.blocks[0].box = {glm::vec3(-200), glm::vec3(200)};
-        Selector selector(lone.crowd, lone.figures());
+        Selector selector(lone.crowd, lone.cast, lone.figures());
         const render::View view = view_from({-30, 30, -100}, {0.1, -0.25, 1}, 1.2);
         const Decision decision{State::slowed, 1, 0};
         render::Instance last{};
@@ -170,7 +177,7 @@ TEST(LonePerson, StaysAsTheyWereUntilTheyAreDue) {
         int moves = 0, period = 0, since = 0;
         for (std::int64_t tick = 500; tick < 700; ++tick) {
             selector.survey(view, tick);
-            const render::Selection& selection = selector.select(decision, tick - 1);
+            const render::Frame& selection = selector.select(decision, tick - 1);
             ASSERT_EQ(selection.instances.size(), 1u);
             const bool moved = selection.work[sfsm::WorkKind::motion_update] == 1;
             if (tick > 500 && !moved) {
@@ -180,7 +187,7 @@ TEST(LonePerson, StaysAsTheyWereUntilTheyAreDue) {
             if (moved) {
                 // When they move, they are where and how they are at that very tick.
                 selector.survey(view, tick);
-                const render::Selection& now = selector.select({}, tick - 1);
+                const render::Frame& now = selector.select({}, tick - 1);
                 EXPECT_EQ(std::memcmp(&selection.instances[0], &now.instances[0], sizeof last), 0) << "tick " << tick;
                 selector.survey(view, tick);
                 if (moves > 1) {
@@ -209,7 +216,7 @@ TEST(Forecast, LossOfMotionIsTheMeasuredDisplacement) {
     const tests::LonePeople row(tests::make_lift(body_half, rise, 20, 1), places);
     const render::View view = view_from({0, 0.9, 0}, {0, 0, -1});
     const auto poses = static_cast<std::uint32_t>(row.poses[0].pose_count);
-    Selector selector(row.crowd, row.figures()), fresh(row.crowd, row.figures());
+    Selector selector(row.crowd, row.cast, row.figures()), fresh(row.crowd, row.cast, row.figures());
     const sfsm::Forecast forecast = selector.survey(view, 0).forecast;
     ASSERT_EQ(forecast.people, 120);
     const std::vector<sfsm::Step> steps(forecast.motion.begin(), forecast.motion.end());
@@ -221,7 +228,7 @@ TEST(Forecast, LossOfMotionIsTheMeasuredDisplacement) {
             const auto heights = [&](Selector& by, const Decision& decision) {
                 by.survey(view, tick);
                 std::map<float, double> found;
-                const render::Selection& selection = by.select(decision, tick - 1);
+                const render::Frame& selection = by.select(decision, tick - 1);
                 for (const render::Batch& batch : selection.batches)
                     for (std::uint32_t i = 0; i < batch.instance_count; ++i)
                         found[selection.instances[batch.first_instance + i].position.z] =
@@ -256,15 +263,15 @@ TEST(Forecast, LossOfSplatsIsHalfASplatOrHalfThePerson) {
     const tests::LonePeople row(tests::make_lift(body_half, 0, 0.5, 20), places, 1000);
     const double area = 4 * 1.8 * 2 * body_half + 2 * std::pow(2 * body_half, 2);  // [m^2]
     const render::View view = view_from({0, 0.9, 0}, {0, 0, -1});
-    Selector selector(row.crowd, row.figures());
+    Selector selector(row.crowd, row.cast, row.figures());
     const sfsm::Forecast forecast = selector.survey(view, 0).forecast;
     const std::vector<sfsm::Step> steps(forecast.shapes.begin(), forecast.shapes.end());
     for (const sfsm::Step& step : steps) {
         double lost = 0;
         const Decision decision = step.setting == 0 ? Decision{} : Decision{State::points, 1000, step.setting};
-        const render::Selection& selection = selector.select(decision, -1);
+        const render::Frame& selection = selector.select(decision, -1);
         for (const render::Batch& batch : selection.batches) {
-            for (std::uint32_t i = 0; i < batch.instance_count && batch.points > 0; ++i) {
+            for (std::uint32_t i = 0; i < batch.instance_count && tests::points_each(batch) > 0; ++i) {
                 const double depth = -selection.instances[batch.first_instance + i].position.z;
                 const double silhouette = std::sqrt(area / 4) * height / (2 * std::tan(0.45) * depth);
                 lost += std::min(step.setting, silhouette) / 2;
@@ -282,7 +289,7 @@ TEST(Forecast, LossOfSplatsIsHalfASplatOrHalfThePerson) {
 TEST(Forecast, HasStepsForAllThatALawMayDecide) {
     const glm::vec3 feet(0, 0, -30);
     const tests::LonePeople lone(tests::make_lift(body_half, 0, 0.5, 8), {&feet, 1}, 1000);
-    Selector selector(lone.crowd, lone.figures());
+    Selector selector(lone.crowd, lone.cast, lone.figures());
     const render::Survey& survey = selector.survey(view_from({0, 0.9, 0}, {0, 0, -1}), 0);
     const auto& splats = survey.forecast.shapes;
     EXPECT_EQ(splats.front().setting, 0);

@@ -4,8 +4,8 @@
 #include <set>
 #include <stdexcept>
 
-#include "render/frame.h"
-#include "render/texture_array.h"
+#include "render/gl/renderer.h"
+#include "render/gl/texture_array.h"
 #include "tests/render/gl_test.h"
 #include "tests/render/small_scene.h"
 
@@ -19,11 +19,10 @@ constexpr int width = 320, height = 240;
 struct Portrait {
     tests::SmallScene scene{1};
     scene::StaticMesh nothing{{{}, {}, {}}, {0, 0, 0}, {}};
-    render::Renderer renderer;
+    render::gl::Renderer renderer;
 
-    Portrait() : renderer(nothing, scene.plan, assets(), width, height) {}
+    Portrait() : renderer(nothing, scene.plan, scene.figures(), width, height) {}
 
-    std::vector<render::FigureAssets> assets() const { return {{&scene.person.mesh, &scene.poses[0], &scene.points}}; }
     render::View view(double distance) const {
         const scene::Placement at = scene::place(scene.crowd, 0, scene.cast[0], 0);
         scene::CameraPose pose;
@@ -32,13 +31,15 @@ struct Portrait {
         return render::make_view(pose, width, height);
     }
     render::Image draw(const render::View& view, const sfsm::Decision& decision) {
-        render::Selector selector(scene.crowd, scene.figures());
+        render::Selector selector(scene.crowd, scene.cast, scene.figures());
         selector.survey(view, 0);
-        renderer.draw(view, selector.select(decision, -1), decision.splat_size);
+        renderer.draw(selector.select(decision, -1));
         return renderer.read_image();
     }
     render::Image draw_nobody(const render::View& view) {
-        renderer.draw(view, {}, 0);
+        render::Frame nobody;
+        nobody.view = view;
+        renderer.draw(nobody);
         return renderer.read_image();
     }
 };
@@ -148,7 +149,7 @@ TEST_F(Picture, SplatsReachHalfTheirSizeBeyondTheOutline) {
     const render::View view = portrait.view(3.0);  // about 150 px tall
     const render::Image nobody = portrait.draw_nobody(view);
     const std::set<int> triangles = differing_pixels(portrait.draw(view, {}), nobody);
-    render::Selector selector(portrait.scene.crowd, portrait.scene.figures());
+    render::Selector selector(portrait.scene.crowd, portrait.scene.cast, portrait.scene.figures());
     const sfsm::Forecast forecast = selector.survey(view, 0).forecast;
     int checked = 0;
     for (const sfsm::Step& step : std::vector(forecast.shapes.begin(), forecast.shapes.end())) {
@@ -198,9 +199,9 @@ TEST_F(Picture, ResizedTargetHasItsNewSize) {
 TEST_F(Picture, HasNoMoreTexturesThanALookCanName) {
     const model::Texture white{1, 1, {glm::u8vec4(255)}};
     std::vector<model::Texture> textures(31, white);
-    EXPECT_NO_THROW(render::make_texture_array(textures));
+    EXPECT_NO_THROW(render::gl::make_texture_array(textures));
     textures.push_back(white);
-    EXPECT_THROW(render::make_texture_array(textures), std::runtime_error);
+    EXPECT_THROW(render::gl::make_texture_array(textures), std::runtime_error);
 }
 
 TEST(Png, StartsWithItsSignatureAndEndsWithItsLastChunk) {

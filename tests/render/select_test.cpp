@@ -8,11 +8,12 @@
 #include <set>
 #include <tuple>
 
+#include "tests/render/batches.h"
 #include "tests/render/small_scene.h"
 
 namespace {
 
-using render::Selection;
+using render::Frame;
 using render::Selector;
 using sfsm::Decision;
 using sfsm::State;
@@ -30,17 +31,17 @@ Decision points_of(double splat_size, double motion_distance = 50) {
     return {State::points, motion_distance, splat_size};
 }
 
-const Selection& select_at(Selector& selector, const render::View& view, const Decision& decision, std::int64_t tick) {
+const Frame& select_at(Selector& selector, const render::View& view, const Decision& decision, std::int64_t tick) {
     selector.survey(view, tick);
     return selector.select(decision, tick - 1);
 }
 
-Selection select_once(const render::View& view, const Decision& decision, std::int64_t tick = 100) {
-    Selector selector(small_scene().crowd, small_scene().figures());
+Frame select_once(const render::View& view, const Decision& decision, std::int64_t tick = 100) {
+    Selector selector(small_scene().crowd, small_scene().cast, small_scene().figures());
     return select_at(selector, view, decision, tick);
 }
 
-bool same_bits(const Selection& a, const Selection& b) {
+bool same_bits(const Frame& a, const Frame& b) {
     return a.instances.size() == b.instances.size() && a.batches.size() == b.batches.size() &&
            std::memcmp(a.instances.data(), b.instances.data(), a.instances.size() * sizeof(render::Instance)) == 0 &&
            std::memcmp(a.batches.data(), b.batches.data(), a.batches.size() * sizeof(render::Batch)) == 0 &&
@@ -76,7 +77,7 @@ bool some_vertex_shows(const render::View& view, std::size_t person, std::int64_
 TEST(Selection, NeverDropsSomeoneWhoShows) {
     for (const char* preset : {"still", "close", "medium", "remote"}) {
         const render::View view = view_of(preset);
-        const Selection selection = select_once(view, {});
+        const Frame selection = select_once(view, {});
         std::set<std::tuple<float, float, float>> selected;
         for (const render::Instance& i : selection.instances)
             selected.insert({i.position.x, i.position.y, i.position.z});
@@ -96,7 +97,7 @@ TEST(Selection, NeverDropsSomeoneWhoShows) {
 
 TEST(Selection, BatchesPartitionTheInstances) {
     for (const double splat_size : {0.0, 1.0, 4.0}) {
-        const Selection selection = select_once(view_of("still"), splat_size > 0 ? points_of(splat_size) : Decision{});
+        const Frame selection = select_once(view_of("still"), splat_size > 0 ? points_of(splat_size) : Decision{});
         std::uint32_t next = 0;
         for (const render::Batch& batch : selection.batches) {
             EXPECT_EQ(batch.first_instance, next);
@@ -108,12 +109,12 @@ TEST(Selection, BatchesPartitionTheInstances) {
 }
 
 TEST(Selection, WorkIsTheSumOverItsBatches) {
-    const Selection selection = select_once(view_of("still"), points_of(2));
+    const Frame selection = select_once(view_of("still"), points_of(2));
     std::int64_t people = 0, triangles = 0, points = 0;
     for (const render::Batch& batch : selection.batches) {
         people += batch.instance_count;
-        points += std::int64_t{batch.points} * batch.instance_count;
-        if (batch.points == 0)
+        points += std::int64_t{tests::points_each(batch)} * batch.instance_count;
+        if (tests::points_each(batch) == 0)
             triangles += std::int64_t{batch.instance_count} *
                          static_cast<std::int64_t>(small_scene().person.mesh.triangle_count());
     }
@@ -124,7 +125,7 @@ TEST(Selection, WorkIsTheSumOverItsBatches) {
 }
 
 TEST(Selection, LargerSplatsNeverCostMore) {
-    const auto price = [](const Selection& s) {
+    const auto price = [](const Frame& s) {
         return 2 * s.work[sfsm::WorkKind::point] + s.work[sfsm::WorkKind::triangle];
     };  // as SelectOptions has it
     std::int64_t last = price(select_once(view_of("still"), {}));
@@ -137,8 +138,8 @@ TEST(Selection, LargerSplatsNeverCostMore) {
 
 TEST(Selection, IsTheSameOnAnyNumberOfThreads) {
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-    const Selection alone = select_once(view_of("still"), points_of(2));
-    Selection together;
+    const Frame alone = select_once(view_of("still"), points_of(2));
+    Frame together;
     {
         const tbb::global_control many(tbb::global_control::max_allowed_parallelism, 4);
         together = select_once(view_of("still"), points_of(2));
@@ -147,17 +148,17 @@ TEST(Selection, IsTheSameOnAnyNumberOfThreads) {
 }
 
 TEST(Selection, NeedsNoFrameBeforeIt) {
-    Selector selector(small_scene().crowd, small_scene().figures());
+    Selector selector(small_scene().crowd, small_scene().cast, small_scene().figures());
     for (std::int64_t tick = 90; tick < 100; ++tick) select_at(selector, view_of("close"), points_of(3, 20), tick);
-    const Selection after_others = select_at(selector, view_of("still"), points_of(2), 100);
+    const Frame after_others = select_at(selector, view_of("still"), points_of(2), 100);
     EXPECT_TRUE(same_bits(after_others, select_once(view_of("still"), points_of(2))));
 }
 
 // Nor does what a view shows: neither its range, nor who is seen, nor any price.
 TEST(Survey, NeedsNoFrameBeforeIt) {
-    Selector selector(small_scene().crowd, small_scene().figures());
+    Selector selector(small_scene().crowd, small_scene().cast, small_scene().figures());
     for (const char* preset : {"remote", "close", "medium", "still", "close"}) {
-        Selector fresh(small_scene().crowd, small_scene().figures());
+        Selector fresh(small_scene().crowd, small_scene().cast, small_scene().figures());
         const render::Survey &survey = selector.survey(view_of(preset), 100),
                              &alone = fresh.survey(view_of(preset), 100);
         EXPECT_EQ(survey.range, alone.range) << preset;
@@ -168,7 +169,7 @@ TEST(Survey, NeedsNoFrameBeforeIt) {
 }
 
 TEST(Survey, OfNobodyCostsAndLosesNothing) {
-    Selector selector(small_scene().crowd, small_scene().figures());
+    Selector selector(small_scene().crowd, small_scene().cast, small_scene().figures());
     const render::View up = render::make_view({{0, 200, 0}, {0, 300, 0}, 0.8}, 640, 360);
     const render::Survey& survey = selector.survey(up, 100);
     EXPECT_EQ(survey.range, 1);
@@ -181,13 +182,13 @@ TEST(Survey, OfNobodyCostsAndLosesNothing) {
         EXPECT_EQ(step.work[sfsm::WorkKind::triangle] + step.work[sfsm::WorkKind::point], 0);
         EXPECT_EQ(step.loss_px, 0);
     }
-    const Selection& selection = selector.select(points_of(4), 99);
+    const Frame& selection = selector.select(points_of(4), 99);
     EXPECT_TRUE(selection.batches.empty() && selection.instances.empty());
     EXPECT_EQ(selection.work, sfsm::Work{});
 }
 
 TEST(Selection, MovesEverybodyInStateZeroAndFewerTheNearerD) {
-    const Selection all = select_once(view_of("still"), {});
+    const Frame all = select_once(view_of("still"), {});
     EXPECT_EQ(all.work[sfsm::WorkKind::motion_update], all.work[sfsm::WorkKind::person]);
     std::int64_t last = all.work[sfsm::WorkKind::person];
     for (const double motion_distance : {200.0, 120.0, 60.0, 20.0, 1.0}) {
@@ -202,12 +203,12 @@ TEST(Selection, MovesEverybodyInStateZeroAndFewerTheNearerD) {
 TEST(Selection, MovesEachPersonOnceAPeriod) {
     // Over as many frames as the longest period everybody moves at least once, and the far ones just once.
     const Decision decision{State::slowed, 1.0, 0};
-    Selector selector(small_scene().crowd, small_scene().figures(),
+    Selector selector(small_scene().crowd, small_scene().cast, small_scene().figures(),
                       {.theta = 10.0f});  // everybody at the longest period
     const render::View view = view_of("remote");
     std::int64_t moved = 0, people = 0;
     for (std::int64_t tick = 100; tick < 100 + motion::max_period; ++tick) {
-        const Selection& selection = select_at(selector, view, decision, tick);
+        const Frame& selection = select_at(selector, view, decision, tick);
         moved += selection.work[sfsm::WorkKind::motion_update];
         people = selection.work[sfsm::WorkKind::person];
         // Staggered: no frame moves more than twice its share of the people.
@@ -218,7 +219,7 @@ TEST(Selection, MovesEachPersonOnceAPeriod) {
 }
 
 TEST(Selection, NothingMovesWhileTimeStandsStill) {
-    Selector selector(small_scene().crowd, small_scene().figures());
+    Selector selector(small_scene().crowd, small_scene().cast, small_scene().figures());
     selector.survey(view_of("still"), 50);
     EXPECT_EQ(selector.select({}, 50).work[sfsm::WorkKind::motion_update], 0);
 }
@@ -226,7 +227,7 @@ TEST(Selection, NothingMovesWhileTimeStandsStill) {
 TEST(Selection, RangeReachesTheFarthestPersonInView) {
     for (const char* preset : {"still", "close", "medium", "remote"}) {
         const render::View view = view_of(preset);
-        Selector selector(small_scene().crowd, small_scene().figures());
+        Selector selector(small_scene().crowd, small_scene().cast, small_scene().figures());
         const float range = selector.survey(view, 0).range;
         float farthest = 0;
         for (const render::Instance& instance : selector.select({}, -1).instances)
@@ -242,7 +243,7 @@ constexpr double bin_error = 0.08;
 
 TEST(Forecast, CountsWhatSelectionDraws) {
     for (const char* preset : {"still", "close", "medium", "remote"}) {
-        Selector selector(small_scene().crowd, small_scene().figures());
+        Selector selector(small_scene().crowd, small_scene().cast, small_scene().figures());
         const sfsm::Forecast forecast = selector.survey(view_of(preset), 100).forecast;
         EXPECT_EQ(forecast.shapes.front().setting, 0);
         for (const sfsm::Step& step : forecast.shapes) {
@@ -262,7 +263,7 @@ TEST(Forecast, CountsWhatSelectionDraws) {
 TEST(Selection, HasOnlyThoseWhoHaveArrived) {
     scene::Crowd crowd = small_scene().crowd;
     crowd.filled_tick = 1000;
-    Selector selector(crowd, small_scene().figures());
+    Selector selector(crowd, small_scene().cast, small_scene().figures());
     const render::View view = view_of("remote");
     std::int64_t before = 0;
     for (const std::int64_t tick : {0, 1, 250, 500, 1000}) {
@@ -276,7 +277,7 @@ TEST(Selection, HasOnlyThoseWhoHaveArrived) {
 
 TEST(Forecast, CountsWhoMovesOnAverage) {
     for (const float theta : {motion::default_theta, 3 * motion::default_theta}) {
-        Selector selector(small_scene().crowd, small_scene().figures(), {.theta = theta});
+        Selector selector(small_scene().crowd, small_scene().cast, small_scene().figures(), {.theta = theta});
         const sfsm::Forecast forecast = selector.survey(view_of("still"), 100).forecast;
         for (const sfsm::Step& step : std::vector(forecast.motion.begin(), forecast.motion.end())) {
             std::int64_t moved = 0;
@@ -323,7 +324,7 @@ double measured_displacement(const render::View& view, double motion_distance) {
 TEST(Forecast, LossOfMotionIsTheCrowdsOwnOverTime) {
     for (const char* preset : {"still", "remote"}) {
         const render::View view = view_of(preset);
-        Selector selector(small_scene().crowd, small_scene().figures());
+        Selector selector(small_scene().crowd, small_scene().cast, small_scene().figures());
         const sfsm::Forecast forecast = selector.survey(view, 100).forecast;
         for (const sfsm::Step& step : forecast.motion) {
             const double measured = measured_displacement(view, step.setting);
@@ -334,7 +335,7 @@ TEST(Forecast, LossOfMotionIsTheCrowdsOwnOverTime) {
 }
 
 TEST(Forecast, WorkShrinksAndLossGrowsAlongTheSteps) {
-    Selector selector(small_scene().crowd, small_scene().figures());
+    Selector selector(small_scene().crowd, small_scene().cast, small_scene().figures());
     for (const char* preset : {"still", "close", "medium", "remote"}) {
         const sfsm::Forecast forecast = selector.survey(view_of(preset), 100).forecast;
         for (std::size_t i = 1; i < forecast.shapes.size(); ++i) {
@@ -350,22 +351,6 @@ TEST(Forecast, WorkShrinksAndLossGrowsAlongTheSteps) {
                       forecast.motion[i - 1].work[sfsm::WorkKind::motion_update]);
             EXPECT_GE(forecast.motion[i].loss_px, forecast.motion[i - 1].loss_px);
         }
-    }
-}
-
-TEST(PointLevels, AreAboutTheSquareRootOfTwoApart) {
-    EXPECT_EQ(render::level_points(0), 0u);
-    for (std::uint32_t level = 1; level < 32; ++level) {
-        EXPECT_LT(render::level_points(level), render::level_points(level + 1));
-        EXPECT_LE(render::level_points(level + 1), 2 * render::level_points(level));
-    }
-}
-
-TEST(PointLevels, LowestLevelWithEnoughPointsIsChosen) {
-    for (float points = 1; points < 60000; points *= 1.17f) {
-        const std::uint32_t level = render::level_for(points);
-        EXPECT_GE(static_cast<float>(render::level_points(level)), points);
-        EXPECT_LT(static_cast<float>(render::level_points(level - 1)), points);
     }
 }
 

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "render/select.h"
+#include "tests/render/batches.h"
 #include "tests/render/lone_person.h"
 
 namespace {
@@ -46,11 +47,13 @@ std::vector<tests::LonePeople> columns() {
 
 struct Together {
     scene::Crowd crowd;
-    std::vector<render::Figure> figures;
+    std::vector<scene::CastMember> cast;
+    std::vector<figures::Figure> figures;
 
     explicit Together(const std::vector<tests::LonePeople>& parts) {
         for (const tests::LonePeople& part : parts) {
             const auto character = static_cast<std::uint8_t>(figures.size());
+            cast.push_back(part.cast[0]);
             figures.push_back(part.figures()[0]);
             for (std::size_t i = 0; i < part.crowd.size(); ++i) {
                 crowd.blocks.push_back({static_cast<std::uint32_t>(crowd.size()), 1, part.crowd.blocks[i].box});
@@ -68,12 +71,12 @@ struct Together {
 
 using Drawn = std::multiset<std::tuple<std::size_t, std::uint32_t, std::uint32_t, std::string>>;
 
-void add(Drawn& drawn, std::size_t first_character, const render::Selection& selection) {
+void add(Drawn& drawn, std::size_t first_character, const render::Frame& selection) {
     for (const render::Batch& batch : selection.batches) {
         for (std::uint32_t i = 0; i < batch.instance_count; ++i) {
             std::string bytes(sizeof(render::Instance), '\0');
             std::memcpy(bytes.data(), &selection.instances[batch.first_instance + i], bytes.size());
-            drawn.insert({first_character + batch.character, batch.pose, batch.points, bytes});
+            drawn.insert({first_character + batch.character, batch.pose, tests::points_each(batch), bytes});
         }
     }
 }
@@ -92,19 +95,19 @@ TEST(Several, AreDrawnAsEachWouldBeAlone) {
         }
     }
     const Together all(parts);
-    Selector selector(all.crowd, all.figures);
+    Selector selector(all.crowd, all.cast, all.figures);
     const render::View view = render::make_view({{-30, 30, 100}, {-27, 22, 70}, 1.2}, 640, 360);
     for (const Decision& decision : {Decision{}, Decision{State::slowed, 10, 0}, Decision{State::points, 10, 1},
                                      Decision{State::points, 40, 4}, Decision{State::points, 40, 20}}) {
         selector.survey(view, 777);
-        const render::Selection& together = selector.select(decision, 776);
+        const render::Frame& together = selector.select(decision, 776);
         Drawn drawn, expected;
         sfsm::Work work;
         add(drawn, 0, together);
         for (std::size_t i = 0; i < parts.size(); ++i) {
-            Selector alone(parts[i].crowd, parts[i].figures());
+            Selector alone(parts[i].crowd, parts[i].cast, parts[i].figures());
             alone.survey(view, 777);
-            const render::Selection& selection = alone.select(decision, 776);
+            const render::Frame& selection = alone.select(decision, 776);
             EXPECT_GT(selection.work[sfsm::WorkKind::person], rows / 2);
             add(expected, i, selection);
             work += selection.work;
@@ -117,12 +120,12 @@ TEST(Several, AreDrawnAsEachWouldBeAlone) {
 TEST(Several, AreForecastAsEachWouldBeAlone) {
     const std::vector<tests::LonePeople> parts = columns();
     const Together all(parts);
-    Selector selector(all.crowd, all.figures);
+    Selector selector(all.crowd, all.cast, all.figures);
     const sfsm::Forecast together = selector.survey(along_the_columns(), 100).forecast;
     std::vector<sfsm::Step> splats(together.shapes.size());
     std::vector<sfsm::Step> motion(together.motion.size());
     for (const tests::LonePeople& part : parts) {
-        Selector alone(part.crowd, part.figures());
+        Selector alone(part.crowd, part.cast, part.figures());
         const sfsm::Forecast forecast = alone.survey(along_the_columns(), 100).forecast;
         ASSERT_EQ(forecast.people, rows);
         const double share = 1.0 / static_cast<double>(parts.size());  // there are as many of each
@@ -158,7 +161,7 @@ TEST(Units, OfAModelChangeNothingThatIsSeen) {
     const tests::LonePeople metres = column(lift, 0, 500, 1.4f);
     for (const float per_metre : {0.04f, 100.0f}) {
         const tests::LonePeople other = column(in_units(lift, per_metre), 0, 500, 1.4f);
-        Selector one(metres.crowd, metres.figures()), two(other.crowd, other.figures());
+        Selector one(metres.crowd, metres.cast, metres.figures()), two(other.crowd, other.cast, other.figures());
         const sfsm::Forecast expected = one.survey(along_the_columns(), 100).forecast,
                              found = two.survey(along_the_columns(), 100).forecast;
         EXPECT_EQ(found.people, expected.people);
@@ -174,7 +177,7 @@ TEST(Units, OfAModelChangeNothingThatIsSeen) {
         }
         for (std::size_t i = 0; i < expected.motion.size(); ++i)
             EXPECT_NEAR(found.motion[i].loss_px, expected.motion[i].loss_px, bin_edge * expected.motion[i].loss_px);
-        const render::Selection &fine = one.select({}, 99), &same = two.select({}, 99);
+        const render::Frame &fine = one.select({}, 99), &same = two.select({}, 99);
         ASSERT_EQ(same.batches.size(), fine.batches.size());
         for (std::size_t i = 0; i < fine.batches.size(); ++i) EXPECT_EQ(same.batches[i].pose, fine.batches[i].pose);
     }
@@ -187,7 +190,7 @@ TEST(Units, OfAModelDoNotDecideWhoIsSeen) {
     const tests::LonePeople metres(lift, {&feet, 1});
     for (const float per_metre : {0.04f, 100.0f}) {
         const tests::LonePeople other(in_units(lift, per_metre), {&feet, 1});
-        Selector one(metres.crowd, metres.figures()), two(other.crowd, other.figures());
+        Selector one(metres.crowd, metres.cast, metres.figures()), two(other.crowd, other.cast, other.figures());
         int seen = 0, looks = 0;
         for (double up = -1; up < 1; up += 0.0137) {
             const render::View view = render::make_view({{0, 0.9, 6}, {0, 0.9 + 6 * up, 0}, 0.5}, 640, 360);

@@ -34,9 +34,7 @@ struct SmallScene {
         crowd = scene::populate(plan, people, cast, poses, 1);
     }
 
-    std::vector<render::Figure> figures() const {
-        return {{&cast[0], &poses[0], static_cast<std::uint32_t>(person.mesh.triangle_count()), poses[0].area}};
-    }
+    std::vector<figures::Figure> figures() const { return {{&person.mesh, &poses[0], &points}}; }
 };
 
 }  // namespace tests

@@ -1,4 +1,4 @@
-#include "render/timer.h"
+#include "render/gl/timer.h"
 
 #include <cmath>
 #include <vector>
@@ -9,20 +9,20 @@ namespace {
 
 using Timer = tests::GlTest;
 
-render::Device device_that_is(bool software) {
-    render::Device device;
+render::gl::Device device_that_is(bool software) {
+    render::gl::Device device;
     device.software = software;
     return device;
 }
 
-std::optional<render::FrameTime> draw_frame(render::FrameTimer& timer, std::int64_t frame) {
+std::optional<render::gl::FrameTime> draw_frame(render::gl::FrameTimer& timer, std::int64_t frame) {
     timer.begin(frame);
     timer.submit();
     return timer.end();
 }
 
 TEST_F(Timer, ClockGivesEachFramesTimeAtItsEnd) {
-    render::FrameTimer timer(device_that_is(true));
+    render::gl::FrameTimer timer(device_that_is(true));
     EXPECT_EQ(timer.delay(), 0);
     for (std::int64_t frame = 0; frame < 5; ++frame) {
         const auto time = draw_frame(timer, frame);
@@ -35,7 +35,7 @@ TEST_F(Timer, ClockGivesEachFramesTimeAtItsEnd) {
 }
 
 TEST_F(Timer, QueriesArriveExactlyTheirDelayLateAndInOrder) {
-    render::FrameTimer timer(device_that_is(false));
+    render::gl::FrameTimer timer(device_that_is(false));
     ASSERT_GT(timer.delay(), 0);
     std::vector<std::int64_t> arrived;
     for (std::int64_t frame = 0; frame < 10; ++frame) {
@@ -52,7 +52,7 @@ TEST_F(Timer, QueriesArriveExactlyTheirDelayLateAndInOrder) {
 }
 
 TEST_F(Timer, NothingIsLeftOfARunOfNoFrames) {
-    render::FrameTimer timer(device_that_is(false));
+    render::gl::FrameTimer timer(device_that_is(false));
     EXPECT_FALSE(timer.drain().has_value());
 }
 

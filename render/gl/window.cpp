@@ -1,4 +1,4 @@
-#include "render/window.h"
+#include "render/gl/window.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace render {
+namespace render::gl {
 
 namespace {
 
@@ -213,4 +213,4 @@ void Window::swap() {
     glfwSwapBuffers(window_);
 }
 
-}  // namespace render
+}  // namespace render::gl

@@ -1,9 +1,9 @@
-#include "render/timer.h"
+#include "render/gl/timer.h"
 
 #include <algorithm>
 #include <limits>
 
-namespace render {
+namespace render::gl {
 
 FrameTimer::FrameTimer(const Device& device) : software_(device.software) {
     if (software_) return;
@@ -54,4 +54,4 @@ FrameTime FrameTimer::read(Slot& slot) {
     return time;
 }
 
-}  // namespace render
+}  // namespace render::gl

@@ -1,12 +1,11 @@
-// OpenGL 4.5 core through libepoxy, and owners for its objects. Everything else of render/ that touches GL includes
-// this.
+// OpenGL 4.5 core through libepoxy, and owners for its objects. Everything that touches GL includes this.
 #pragma once
 
 #include <epoxy/gl.h>
 
 #include <utility>
 
-namespace render {
+namespace render::gl {
 
 // Owns one GL name; `Traits` says how it is made and deleted. Needs the context current in both.
 template <typename Traits>
@@ -71,4 +70,4 @@ using Framebuffer = Object<FramebufferTraits>;
 using Query = Object<QueryTraits>;
 using Program = Object<ProgramTraits>;
 
-}  // namespace render
+}  // namespace render::gl

@@ -1,9 +1,9 @@
-#include "render/program.h"
+#include "render/gl/program.h"
 
 #include <stdexcept>
 #include <string>
 
-namespace render {
+namespace render::gl {
 
 namespace {
 
@@ -23,13 +23,28 @@ std::string program_log(GLuint program) {
     return first_line(log);
 }
 
+// The text of a shader with its includes in place.
+std::string with_includes(std::string_view name) {
+    constexpr std::string_view include = "#include \"";
+    std::string text;
+    std::string_view rest = shader_source(name);
+    while (!rest.empty()) {
+        const std::string_view line = rest.substr(0, rest.find('\n') + 1);
+        rest.remove_prefix(line.size());
+        if (line.starts_with(include))
+            text += with_includes(line.substr(include.size(), line.rfind('"') - include.size()));
+        else
+            text += line;
+    }
+    return text;
+}
+
 // Attached to `program` and marked for deletion with it.
 void attach_stage(GLuint program, GLenum stage, std::string_view name, const std::string& preamble) {
     const GLuint shader = glCreateShader(stage);
-    const std::string_view body = shader_source(name);
-    const GLchar* texts[] = {preamble.c_str(), body.data()};
-    const GLint lengths[] = {static_cast<GLint>(preamble.size()), static_cast<GLint>(body.size())};
-    glShaderSource(shader, 2, texts, lengths);
+    const std::string body = with_includes(name);
+    const GLchar* texts[] = {preamble.c_str(), body.c_str()};
+    glShaderSource(shader, 2, texts, nullptr);
     glCompileShader(shader);
     GLint compiled = GL_FALSE;
     glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
@@ -46,12 +61,11 @@ Program build_program(std::string_view vertex, std::string_view fragment,
     std::string preamble = "#version 450 core\n";
     for (std::string_view define : defines) preamble += "#define " + std::string(define) + "\n";
     preamble += shader_source("layout.h");
+    preamble += "\n#line 1\n";
 
     Program program = Program::create();
-    const std::string line_one = "\n#line 1\n";
-    attach_stage(program.name(), GL_VERTEX_SHADER, vertex,
-                 preamble + std::string(shader_source("light.glsl")) + line_one);
-    attach_stage(program.name(), GL_FRAGMENT_SHADER, fragment, preamble + line_one);
+    attach_stage(program.name(), GL_VERTEX_SHADER, vertex, preamble);
+    attach_stage(program.name(), GL_FRAGMENT_SHADER, fragment, preamble);
     glLinkProgram(program.name());
     GLint linked = GL_FALSE;
     glGetProgramiv(program.name(), GL_LINK_STATUS, &linked);
@@ -61,4 +75,4 @@ Program build_program(std::string_view vertex, std::string_view fragment,
     return program;
 }
 
-}  // namespace render
+}  // namespace render::gl

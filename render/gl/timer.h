@@ -7,10 +7,10 @@
 #include <cstdint>
 #include <optional>
 
-#include "render/device.h"
-#include "render/gl.h"
+#include "render/gl/device.h"
+#include "render/gl/objects.h"
 
-namespace render {
+namespace render::gl {
 
 struct FrameTime {
     std::int64_t frame = 0;
@@ -49,4 +49,4 @@ private:
     std::array<Slot, ring_size> ring_;
 };
 
-}  // namespace render
+}  // namespace render::gl

@@ -1,15 +1,15 @@
-#include "render/frame.h"
+#include "render/gl/renderer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <stdexcept>
 #include <string>
 
-#include "render/program.h"
 #include "shaders/layout.h"
 
-namespace render {
+namespace render::gl {
 
 namespace {
 
@@ -22,9 +22,6 @@ const glm::vec3 sun_direction = glm::normalize(glm::vec3(0.45f, 0.72f, 0.38f));
 constexpr glm::vec3 sun_color{0.72f, 0.66f, 0.55f};
 constexpr glm::vec3 sky_light{0.32f, 0.37f, 0.45f};
 constexpr glm::vec3 ground_light{0.14f, 0.14f, 0.12f};
-
-constexpr std::size_t words_per_element_draw = 5;
-constexpr std::size_t words_per_array_draw = 4;
 
 // Set-up must have left no error behind; memory is the one that a user can do something about.
 void check_for_errors() {
@@ -39,28 +36,31 @@ void check_for_errors() {
     }
 }
 
-std::uintptr_t bytes(std::size_t words) {
-    return words * sizeof(std::uint32_t);
+Buffer make_figure_block(const figures::Figure& figure) {
+    const motion::PoseTable& poses = *figure.poses;
+    const float silhouette = 0.25f * poses.area;  // a quarter of the surface, as of any convex body
+    const FigureBlock block{glm::vec4(poses.box.min, figure.mesh->double_sided ? 1.0f : 0.0f),
+                            glm::vec4(poses.box.size(), std::sqrt(silhouette))};
+    Buffer buffer = Buffer::create();
+    glNamedBufferStorage(buffer.name(), sizeof block, &block, 0);
+    return buffer;
 }
 
 }  // namespace
 
 Renderer::Renderer(const scene::StaticMesh& structure, const scene::StadiumPlan& plan,
-                   std::span<const FigureAssets> figures, int width, int height)
-    : triangle_program_(build_program("person.vert", "person_triangles.frag")),
-      textured_program_(build_program("person.vert", "person_triangles.frag", {"TEXTURED"})),
-      point_program_(build_program("person.vert", "person_points.frag", {"POINTS"})),
-      structure_program_(build_program("structure.vert", "structure.frag")),
-      ground_program_(build_program("structure.vert", "structure.frag", {"GROUND"})),
-      sky_program_(build_program("sky.vert", "sky.frag")),
+                   std::span<const figures::Figure> figures, int width, int height)
+    : backdrop_(structure),
+      drawers_(make_figure_drawers()),
       frame_block_(Buffer::create()),
       instances_(Buffer::create()),
       commands_(Buffer::create()),
-      empty_array_(VertexArray::create()),
       oval_(plan.oval.half_straight, plan.oval.radius, plan.stand_offset, 0.0f) {
     glNamedBufferStorage(frame_block_.name(), sizeof(FrameBlock), nullptr, GL_DYNAMIC_STORAGE_BIT);
-    for (const FigureAssets& assets : figures) figures_.push_back(upload_figure(assets));
-    upload_structure(structure);
+    for (const figures::Figure& figure : figures) {
+        figure_blocks_.push_back(make_figure_block(figure));
+        for (const auto& drawer : drawers_) drawer->add(figure, instances_);
+    }
     resize(width, height);
     check_for_errors();
 }
@@ -85,9 +85,9 @@ void Renderer::resize(int width, int height) {
                                  std::to_string(height) + " pixels");
 }
 
-void Renderer::draw(const View& view, const Selection& selection, double splat_size) {
-    upload_frame(view, splat_size);
-    upload_selection(selection);
+void Renderer::draw(const Frame& frame) {
+    upload_frame(frame.view, frame.splat_size);
+    upload_people(frame);
 
     glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
     glViewport(0, 0, width_, height_);
@@ -101,10 +101,8 @@ void Renderer::draw(const View& view, const Selection& selection, double splat_s
     glClearNamedFramebufferfv(target_.name(), GL_COLOR, 0, black);
     glClearNamedFramebufferfv(target_.name(), GL_DEPTH, 0, &farthest);
 
-    // Nearest layer first, the costliest pixels (ground, sky) last, where least of them shows.
     draw_people();
-    draw_structure(view);
-    draw_sky();
+    backdrop_.draw(frame.view);
 }
 
 void Renderer::upload_frame(const View& view, double splat_size) {
@@ -125,81 +123,29 @@ void Renderer::upload_frame(const View& view, double splat_size) {
 }
 
 // Batches become indirect commands; neighbours of one character and representation become one run, drawn by one call.
-void Renderer::upload_selection(const Selection& selection) {
+void Renderer::upload_people(const Frame& frame) {
     command_words_.clear();
     runs_.clear();
-    for (const Batch& batch : selection.batches) {
-        const bool points = batch.points > 0;
-        if (runs_.empty() || runs_.back().character != batch.character || runs_.back().points != points)
-            runs_.push_back({batch.character, points, bytes(command_words_.size()), 0});
+    for (const Batch& batch : frame.batches) {
+        if (runs_.empty() || runs_.back().character != batch.character ||
+            runs_.back().representation != batch.representation)
+            runs_.push_back({batch.character, batch.representation, command_words_.size() * sizeof(std::uint32_t), 0});
         ++runs_.back().count;
-        const FigureObjects& figure = figures_[batch.character];
-        if (points)
-            command_words_.insert(
-                command_words_.end(),
-                {batch.points, batch.instance_count,
-                 batch.pose * figure.point_record_count + first_point(figure, batch.points), batch.first_instance});
-        else
-            command_words_.insert(command_words_.end(),
-                                  {static_cast<std::uint32_t>(figure.index_count), batch.instance_count, 0u,
-                                   batch.pose * figure.vertex_count, batch.first_instance});
+        drawers_[batch.representation]->append_command(batch, command_words_);
     }
     // A fresh store each frame: the device may still be reading the last one.
-    glNamedBufferData(commands_.name(), static_cast<GLsizeiptr>(bytes(command_words_.size())), command_words_.data(),
-                      GL_STREAM_DRAW);
-    glNamedBufferData(instances_.name(), static_cast<GLsizeiptr>(selection.instances.size() * sizeof(Instance)),
-                      selection.instances.data(), GL_STREAM_DRAW);
-}
-
-// Where a prefix starts among a pose's records: short ones have records of their own, long ones share the last.
-GLuint Renderer::first_point(const FigureObjects& figure, std::uint32_t points) {
-    if (points > longest_averaged_prefix) return figure.point_record_count - figure.point_count;
-    GLuint first = 0;
-    for (std::uint32_t level = 1; level_points(level) < points; ++level) first += level_points(level);
-    return first;
+    glNamedBufferData(commands_.name(), static_cast<GLsizeiptr>(command_words_.size() * sizeof(std::uint32_t)),
+                      command_words_.data(), GL_STREAM_DRAW);
+    glNamedBufferData(instances_.name(), static_cast<GLsizeiptr>(frame.instances.size() * sizeof(Instance)),
+                      frame.instances.data(), GL_STREAM_DRAW);
 }
 
 void Renderer::draw_people() const {
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.name());
     for (const CommandRun& run : runs_) {
-        const FigureObjects& figure = figures_[run.character];
-        glBindBufferBase(GL_UNIFORM_BUFFER, Figure_binding, figure.box.name());
-        const auto* commands = reinterpret_cast<const void*>(run.offset);
-        if (run.points) {
-            glUseProgram(point_program_.name());
-            glBindVertexArray(figure.point_array.name());
-            glMultiDrawArraysIndirect(GL_POINTS, commands, run.count,
-                                      static_cast<GLsizei>(bytes(words_per_array_draw)));
-            continue;
-        }
-        if (figure.double_sided) glDisable(GL_CULL_FACE);
-        if (figure.textured) glBindTextureUnit(texture_unit_layers, figure.layers.name());
-        glUseProgram(figure.textured ? textured_program_.name() : triangle_program_.name());
-        glBindVertexArray(figure.triangle_array.name());
-        glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, commands, run.count,
-                                    static_cast<GLsizei>(bytes(words_per_element_draw)));
-        glEnable(GL_CULL_FACE);
+        glBindBufferBase(GL_UNIFORM_BUFFER, Figure_binding, figure_blocks_[run.character].name());
+        drawers_[run.representation]->draw(run.character, run.offset, run.count);
     }
-}
-
-void Renderer::draw_structure(const View& view) const {
-    glBindVertexArray(structure_array_.name());
-    const auto draw_visible = [&](const Program& program, const std::vector<SectorRange>& sectors) {
-        glUseProgram(program.name());
-        for (const SectorRange& sector : sectors)
-            if (overlap(view, sector.box) != Overlap::outside)
-                glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(sector.index_count), GL_UNSIGNED_INT,
-                               reinterpret_cast<const void*>(bytes(sector.first_index)));
-    };
-    draw_visible(structure_program_, painted_);
-    draw_visible(ground_program_, ground_);
-}
-
-void Renderer::draw_sky() const {
-    glDepthFunc(GL_GEQUAL);  // its depth is the cleared one
-    glUseProgram(sky_program_.name());
-    glBindVertexArray(empty_array_.name());
-    glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 void Renderer::present(int window_width, int window_height) const {
@@ -222,4 +168,4 @@ Image Renderer::read_image() const {
     return image;
 }
 
-}  // namespace render
+}  // namespace render::gl

@@ -1,4 +1,4 @@
-#include "render/headless.h"
+#include "render/gl/headless.h"
 
 #include <epoxy/egl.h>
 
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace render {
+namespace render::gl {
 
 namespace {
 
@@ -92,4 +92,4 @@ HeadlessContext::~HeadlessContext() {
     eglTerminate(display_);
 }
 
-}  // namespace render
+}  // namespace render::gl

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace render {
+namespace render::gl {
 
 struct Device {
     std::string renderer;   // GL_RENDERER
@@ -14,4 +14,4 @@ struct Device {
 // Reads the current context. Throws std::runtime_error below OpenGL 4.5.
 Device read_device();
 
-}  // namespace render
+}  // namespace render::gl

@@ -1,4 +1,4 @@
-#include "render/texture_array.h"
+#include "render/gl/texture_array.h"
 
 #include <algorithm>
 #include <bit>
@@ -8,7 +8,7 @@
 
 #include "shaders/layout.h"
 
-namespace render {
+namespace render::gl {
 
 namespace {
 
@@ -58,4 +58,4 @@ TextureObject make_texture_array(std::span<const model::Texture> textures) {
     return array;
 }
 
-}  // namespace render
+}  // namespace render::gl

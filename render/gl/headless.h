@@ -1,7 +1,7 @@
 // An OpenGL 4.5 core context without a display: raw EGL, surfaceless or on a device.
 #pragma once
 
-namespace render {
+namespace render::gl {
 
 class HeadlessContext {
 public:
@@ -16,4 +16,4 @@ private:
     void* context_ = nullptr;  // EGLContext
 };
 
-}  // namespace render
+}  // namespace render::gl

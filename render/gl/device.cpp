@@ -1,12 +1,12 @@
-#include "render/device.h"
+#include "render/gl/device.h"
 
 #include <array>
 #include <stdexcept>
 #include <string_view>
 
-#include "render/gl.h"
+#include "render/gl/objects.h"
 
-namespace render {
+namespace render::gl {
 
 namespace {
 
@@ -36,4 +36,4 @@ Device read_device() {
     return device;
 }
 
-}  // namespace render
+}  // namespace render::gl

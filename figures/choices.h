@@ -1,0 +1,49 @@
+// Which level a person of a character is drawn at: the cheapest of all that serve their demand.
+#pragma once
+
+#include <array>
+
+#include "figures/representation.h"
+
+namespace figures {
+
+// What one of each kind of work is believed to cost, in pieces (sfsm/work.h).
+inline constexpr std::array<double, sfsm::work_kinds> believed_pieces = [] {
+    std::array<double, sfsm::work_kinds> pieces{};
+    for (std::size_t kind = 0; kind < sfsm::work_kinds; ++kind) pieces[kind] = sfsm::work_table[kind].prior.pieces;
+    return pieces;
+}();
+
+struct Choice {
+    std::uint32_t representation = 0;  // into representations()
+    Level level;
+};
+
+class Choices {
+public:
+    // `pieces`: what one of each kind of work costs. Levels that are never the cheapest are left out; of
+    // equal cost, the later representation is taken.
+    Choices(const Figure& figure, const std::array<double, sfsm::work_kinds>& pieces);
+
+    // By representation, each from its coarsest level to its finest.
+    std::span<const Choice> all() const { return all_; }
+
+    // Into all(): for a demand > 0. Who asks for more than anything serves has the dearest.
+    std::uint32_t at(float demand) const {
+        std::size_t i = 0;
+        while (i + 1 < by_cost_.size() && !(demand <= by_cost_[i].reach)) ++i;
+        return by_cost_[i].choice;
+    }
+    // What serves any demand: the artist's own shape.
+    std::uint32_t exact() const { return by_cost_.back().choice; }
+
+private:
+    struct Reach {
+        float reach;
+        std::uint32_t choice;
+    };
+    std::vector<Choice> all_;
+    std::vector<Reach> by_cost_;  // cost and reach rise along it
+};
+
+}  // namespace figures

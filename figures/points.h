@@ -1,0 +1,33 @@
+// A person as the first points of their model, each a square splat of S pixels that is no larger than the person's
+// silhouette. Its elements are what point_looks lists.
+#pragma once
+
+#include <array>
+
+#include "figures/representation.h"
+
+namespace figures {
+
+// One for each number of points that is drawn.
+std::vector<Level> point_levels(const Figure& figure);
+
+// Half a splat, as far as splats go.
+constexpr double point_outline_px(double splat_size, double silhouette) {
+    return 0.5 * (splat_size < silhouette ? splat_size : silhouette);
+}
+
+inline constexpr Representation points{"points", false, point_levels, point_outline_px};
+
+// What a drawer shows at one of the model's points.
+struct PointLook {
+    std::uint32_t point = 0;                                  // into the model's, and a pose's, points
+    glm::u8vec3 color{0};                                     // sRGB
+    std::array<std::uint8_t, model::tint_count - 1> tints{};  // unorm shares of each tint but none
+    bool two_sided = false;                                   // shown from behind too, even of a closed body
+};
+
+// First the short prefixes, one after the other, each with the mean looks of the surface that its points stand for;
+// then all points with their own. Level::first says where a level's begin.
+std::vector<PointLook> point_looks(const Figure& figure);
+
+}  // namespace figures

@@ -1,0 +1,34 @@
+// What stands and lies around the people: structure, ground and sky.
+#pragma once
+
+#include <vector>
+
+#include "render/gl/objects.h"
+#include "render/view.h"
+#include "scene/stadium.h"
+
+namespace render::gl {
+
+class Backdrop {
+public:
+    explicit Backdrop(const scene::StaticMesh& structure);
+
+    // After the people, whose depths hide most of it: the costliest pixels (ground, sky) come last.
+    void draw(const View& view) const;
+
+private:
+    struct SectorRange {
+        motion::Bounds box;
+        std::uint32_t first_index, index_count;
+    };
+
+    void draw_sectors(const View& view, const Program& program, const std::vector<SectorRange>& sectors) const;
+    void draw_sky() const;
+
+    Program structure_program_, ground_program_, sky_program_;
+    Buffer vertices_, indices_;
+    VertexArray array_, empty_array_;
+    std::vector<SectorRange> painted_, ground_;
+};
+
+}  // namespace render::gl

@@ -1,0 +1,66 @@
+// figures/points.h by GL's own points.
+#include "figures/points.h"
+
+#include <bit>
+
+#include "render/gl/baked_vertex.h"
+#include "render/gl/figure_drawer.h"
+#include "render/gl/program.h"
+#include "render/gl/upload.h"
+#include "shaders/layout.h"
+
+namespace render::gl {
+
+namespace {
+
+struct Objects {
+    Buffer points;
+    VertexArray array;
+    GLuint records = 0;  // a pose
+};
+
+std::vector<Record> records_of(const figures::Figure& figure) {
+    std::vector<Record> records;
+    for (const figures::PointLook& look : figures::point_looks(figure))
+        records.push_back(
+            {look.point,
+             {{}, look.color.r, look.color.g, look.color.b, look.two_sided, std::bit_cast<std::uint32_t>(look.tints)}});
+    return records;
+}
+
+class PointDrawer final : public FigureDrawer {
+public:
+    PointDrawer() : program_(build_program("person_points.vert", "person_points.frag")) {}
+
+    void add(const figures::Figure& figure, const Buffer& instances) override {
+        Objects& objects = objects_.emplace_back();
+        if (figure.poses->point_count == 0) return;  // has no level to be drawn at
+        const std::vector<Record> records = records_of(figure);
+        objects.points = upload_poses(figure.poses->points, figure.poses->point_count, records);
+        objects.records = static_cast<GLuint>(records.size());
+        objects.array = make_person_array(objects.points, instances, Extra::shares);
+    }
+
+    void append_command(const Batch& batch, std::vector<std::uint32_t>& words) const override {
+        const GLuint first = batch.pose * objects_[batch.character].records + batch.first;
+        words.insert(words.end(), {batch.count, batch.instance_count, first, batch.first_instance});
+    }
+
+    void draw(std::uint32_t character, std::uintptr_t offset, GLsizei count) const override {
+        glUseProgram(program_.name());
+        glBindVertexArray(objects_[character].array.name());
+        glMultiDrawArraysIndirect(GL_POINTS, reinterpret_cast<const void*>(offset), count, 0);
+    }
+
+private:
+    Program program_;
+    std::vector<Objects> objects_;
+};
+
+}  // namespace
+
+std::unique_ptr<FigureDrawer> make_point_drawer() {
+    return std::make_unique<PointDrawer>();
+}
+
+}  // namespace render::gl

@@ -1,0 +1,61 @@
+// Frames by OpenGL: uploads a scene once, then draws what was selected.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "figures/figure.h"
+#include "render/frame.h"
+#include "render/gl/backdrop.h"
+#include "render/gl/figure_drawer.h"
+#include "render/gl/objects.h"
+#include "render/image.h"
+#include "scene/stadium.h"
+
+namespace render::gl {
+
+class Renderer {
+public:
+    // Needs a current OpenGL 4.5 context. `figures` in the order of Crowd::character; what they point at is needed only
+    // here. width, height >= 1. Throws std::runtime_error when the driver refuses.
+    Renderer(const scene::StaticMesh& structure, const scene::StadiumPlan& plan,
+             std::span<const figures::Figure> figures, int width, int height);
+
+    void resize(int width, int height);
+
+    // Draws into the renderer's own target; splats are at least one pixel wide.
+    void draw(const Frame& frame);
+
+    // Copies the target to the window's framebuffer, stretched to it.
+    void present(int window_width, int window_height) const;
+
+    // What was drawn last. Waits for it.
+    Image read_image() const;
+
+private:
+    // A run of indirect commands of one character and one representation.
+    struct CommandRun {
+        std::uint32_t character, representation;
+        std::uintptr_t offset;
+        GLsizei count;
+    };
+
+    void upload_frame(const View& view, double splat_size);
+    void upload_people(const Frame& frame);
+    void draw_people() const;
+
+    Backdrop backdrop_;
+    std::vector<std::unique_ptr<FigureDrawer>> drawers_;  // by representation
+    std::vector<Buffer> figure_blocks_;                   // by character
+    Buffer frame_block_, instances_, commands_;
+    glm::vec4 oval_{0.0f};
+    Renderbuffer color_, depth_;
+    Framebuffer target_;
+    int width_ = 0, height_ = 0;
+    std::vector<std::uint32_t> command_words_;
+    std::vector<CommandRun> runs_;
+};
+
+}  // namespace render::gl

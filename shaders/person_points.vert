@@ -1,0 +1,25 @@
+// One splat of a person.
+#include "person.glsl"
+layout(location = attribute_shares) in vec4 shares;
+flat out vec3 splat_color;
+
+// What the person's own palette makes of the point's colour.
+vec3 tint() {
+    float untinted = 1.0 - dot(shares, vec4(1.0));
+    return vec3(untinted) + shares.x * palette_color(0) + shares.y * palette_color(1) + shares.z * palette_color(2) +
+           shares.w * palette_color(3);
+}
+
+void main() {
+    vec3 position = placed_position();
+    vec3 normal = placed_normal();
+    vec3 own_color = linear(vertex_color) * tint();
+    bool away = dot(normal, position) > 0.0;
+    gl_Position = Frame.clip_from_camera_relative * vec4(position, 1.0);
+    // No splat outgrows the person it stands for.
+    float whole_person = Figure.box_size.w * placement.w * Frame.splat.y / gl_Position.w;
+    gl_PointSize = clamp(whole_person, 1.0, Frame.splat.x);
+    // The far side of a closed body is hidden by the near side: drop it before it costs pixels.
+    if (away && look == 0u && !is_double_sided()) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+    splat_color = sqrt(own_color * lit(away ? -normal : normal));
+}

@@ -1,0 +1,28 @@
+// One vertex of a person's mesh.
+#include "person.glsl"
+#ifdef TEXTURED
+layout(location = attribute_uv) in vec2 uv;
+out vec2 texture_uv;
+flat out int texture_layer;
+#endif
+out vec3 albedo;
+out vec3 light;
+
+// What the person's own palette makes of the vertex' colour.
+vec3 tint() {
+    int slot = int(look & ((1u << look_tint_bits) - 1u));
+    return slot == 0 ? vec3(1.0) : palette_color(slot - 1);
+}
+
+void main() {
+    vec3 position = placed_position();
+    vec3 normal = placed_normal();
+    bool away = dot(normal, position) > 0.0;
+    gl_Position = Frame.clip_from_camera_relative * vec4(position, 1.0);
+    albedo = linear(vertex_color) * tint();
+    light = lit(away && is_double_sided() ? -normal : normal);
+#ifdef TEXTURED
+    texture_uv = uv;
+    texture_layer = int(look >> look_tint_bits);
+#endif
+}
