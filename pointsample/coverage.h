@@ -23,11 +23,16 @@ struct Spots {
 // At most this many spots are looked at, and this many points, in a pose: 0.1 s.
 inline constexpr std::size_t most_spots = 524288, most_covering_points = 32768;
 
-// One element a mark. `first_radius`, one element a mark [units]: the first pose's, where it is known already; empty:
-// it is measured. Beyond most_covering_points, what other poses add to the first's stays in proportion, and a measured
-// first falls as that of independent points does, sqrt(log n / n). What is measured has half the diagonal of a spot's
-// square added, for the surface between spots; with a known first pose and no other, there need be none. Poses in
-// parallel, 24 MB each at most.
+// How far the farthest spot is, for each mark.
+//   spots         what stands for the surface. A measured radius has half the diagonal of a spot's square added, for
+//   what
+//                 lies between spots. May be empty if no pose is measured: `first_radius` is given, and there is one
+//                 pose.
+//   marks         rising; one element of the result each
+//   first_radius  [units] of the first pose, an element a mark, if it is known; empty: it is measured
+// Marks beyond most_covering_points are not measured: the first pose's radius falls there as that of independent
+// points, sqrt(log n / n), and the worst pose's stays as many times as large. Poses are measured in parallel, 24 MB
+// each.
 std::vector<Coverage> measure_coverage(const Surface& surface, const Spots& spots,
                                        std::span<const motion::SurfacePoint> points,
                                        std::span<const std::uint32_t> marks, std::span<const float> first_radius);

@@ -16,9 +16,11 @@ inline constexpr float opposed_cosine = -0.7f, opposed_factor = 2.0f;
 // Distances are Euclid's, twice that where the faces' normals oppose (cosine below -0.7): so the two sides of a thin
 // sheet hardly see each other. A candidate's key is its squared distance to the nearest point times its stretch: where
 // a surface stretches to s times its area, points are to be sqrt(s) times as near to each other.
-// There are two kinds. Without `takes_back`, keys also keep the density level: a node of the tree with a share x too
-// many points has its keys taken for x smaller, by at most 2 %. With it, it knows which point is nearest to each
-// candidate, so that points can be taken back.
+// There are two kinds.
+// - Without `takes_back` the tree evens out density: where a node has more points than its share, say 1 % more, the
+// keys
+//   below it count as 1 % smaller, so that the next points go elsewhere. 2 % at most.
+// - With it the tree knows which point is nearest to each candidate, so that points can be taken back.
 template <bool takes_back>
 class FarthestTree {
 public:

@@ -30,11 +30,13 @@ struct SampleOptions {
 // thread count. Every count is a sequence of its own: smaller models are its prefixes, and not those of another count.
 // Triangles without a finite area in the first pose get none. `progress` gets rising fractions, 1 in the end.
 //
-// Time: progressive 5 microseconds a point, even 40, uniform 0.2; a ten-thousandth of a second per thousand triangles;
-// and what the hidden test takes, in proportion to the surface that has to be tried for what is visible of it. Memory
-// [bytes], progressive: 800 a point up to 200,000 points, which have 16 candidates each; more share 3.2 million
-// candidates until they have 6 each, 330 a point. Even: half as much again. Uniform: 70 a point. With it 40 a triangle
-// and, if visible_only, 100 a triangle for each pose that is needed to see whether points are hidden.
+//              time [us a point]   memory [bytes a point]
+//   progressive        5             800 up to 200,000 points, with 16 candidates each; of more points each has fewer
+//                                    candidates (3.2 million in all, at least 6 each) and takes less, down to 330
+//   even              40             half as much again
+//   uniform          0.2             70
+// Triangles add 0.1 us and 40 bytes each. With visible_only: 100 bytes a triangle for each pose that is needed to see
+// whether points are hidden, and time in proportion to the surface that is tried, hidden parts included.
 // Throws std::runtime_error if no triangle has an area, if all together have one of 3.4e38 or more, or if less than a
 // thousandth of it is visible.
 PointModel sample(const model::Mesh& mesh, std::span<const PosedMesh> poses, const SampleOptions& options,
