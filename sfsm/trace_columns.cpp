@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 #include "sfsm/number_text.h"
@@ -147,7 +148,12 @@ private:
 
 enum Need : bool { optional, required };
 
-// `path` leads from the row to what the field holds, member by member.
+// What `path` leads to, member by member: row.decision.state for &TraceRow::decision, &Decision::state.
+template <auto... path>
+constexpr auto& member_of(auto& row) {
+    return (row.*....*path);
+}
+
 template <class Form, auto... path>
 constexpr TraceColumn column(std::string_view name, std::string_view unit, std::string_view meaning,
                              Need need = required) {
@@ -157,8 +163,8 @@ constexpr TraceColumn column(std::string_view name, std::string_view unit, std::
             meaning,
             need == required,
             is_decided,
-            [](std::string& line, const TraceRow& row) { Form::write(line, (row.*....*path)); },
-            [](TraceRow& row, std::string_view field) { return Form::read(field, (row.*....*path)); }};
+            [](std::string& line, const TraceRow& row) { Form::write(line, member_of<path...>(row)); },
+            [](TraceRow& row, std::string_view field) { return Form::read(field, member_of<path...>(row)); }};
 }
 
 template <std::size_t kind>

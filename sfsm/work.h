@@ -42,19 +42,9 @@ struct WorkEntry {
 
 inline constexpr auto work_table = std::to_array<WorkEntry>({
     {WorkKind::person, "person", "visible", "people in view", WorkAxis::frame, {50, 1, 0, 50, 1}},
-    {WorkKind::triangle,
-     "triangle",
-     "triangles",
-     "triangles of people that were drawn",
-     WorkAxis::shape,
-     {1, 0.6, 0.02, 1, 1}},
-    {WorkKind::point, "point", "points", "points of people that were drawn", WorkAxis::shape, {2, 0.8, 0.05, 2, 1}},
-    {WorkKind::motion_update,
-     "motion update",
-     "motion_updates",
-     "people whose pose changed",
-     WorkAxis::motion,
-     {300, 2, 0, 4, 75}},
+    {WorkKind::triangle, "triangle", "triangles", "triangles of people", WorkAxis::shape, {1, 0.6, 0.02, 1, 1}},
+    {WorkKind::point, "point", "points", "points of people", WorkAxis::shape, {2, 0.8, 0.05, 2, 1}},
+    {WorkKind::motion_update, "motion update", "motion_updates", "people moved", WorkAxis::motion, {300, 2, 0, 4, 75}},
 });
 
 inline constexpr std::size_t work_kinds = work_table.size();
