@@ -18,34 +18,16 @@ std::int64_t floor_div(std::int64_t a, std::int64_t b) {
     return a / b - (a % b < 0 ? 1 : 0);
 }
 
-// How far around the stands somebody sits, in [0, 1) from the start of the straight at +z, evenly along straights
-// and nearly so in bends; without transcendental functions, since it is asked of everybody in every frame.
-float lap_fraction(const Oval& oval, glm::vec3 position) {
-    constexpr float typical_offset = 28.0f;  // [m] of a seat
-    const float straight = 2.0f * oval.half_straight;
-    const float half_lap = straight + pi * (oval.radius + typical_offset);
-    const bool second_half = position.x < -oval.half_straight || (position.x < oval.half_straight && position.z < 0);
-    const float x = second_half ? -position.x : position.x, z = second_half ? -position.z : position.z;
-    float arc = x + oval.half_straight;
-    if (x >= oval.half_straight) {
-        const float beyond = x - oval.half_straight;
-        const float turn = 0.5f - 0.5f * z / std::fmax(beyond + std::fabs(z), 1e-3f);
-        arc = straight + turn * (half_lap - straight);
-    }
-    const float half = 0.5f * std::clamp(arc / half_lap, 0.0f, 0x1.fffffep-1f);
-    return second_half ? 0.5f + half : half;
-}
-
 // Mexican waves. Between two of them everybody goes through periods of one clip's length at a phase of their own.
 constexpr std::int64_t wave_interval = 45 * motion::ticks_per_second;
-constexpr std::int64_t wave_lap = 20 * motion::ticks_per_second;  // once around the stadium
+constexpr std::int64_t wave_lap = 20 * motion::ticks_per_second;  // once around the place
 constexpr std::int64_t wave_first = 6 * motion::ticks_per_second;
 constexpr float wave_share = 0.85f;       // of the spectators who take part
 constexpr std::int64_t wave_jitter = 15;  // [ticks] of reaction time
 
 // The tick at which the wave's front reaches somebody; nobody's two waves overlap.
-std::int64_t wave_start(std::int64_t wave, float lap, std::uint32_t own) {
-    return wave * wave_interval + wave_first + static_cast<std::int64_t>(lap * static_cast<float>(wave_lap)) +
+std::int64_t wave_start(std::int64_t wave, float around, std::uint32_t own) {
+    return wave * wave_interval + wave_first + static_cast<std::int64_t>(around * static_cast<float>(wave_lap)) +
            below(hash(own, salt_wave), wave_jitter);
 }
 
@@ -53,12 +35,12 @@ bool takes_part(std::int64_t wave, std::uint32_t own) {
     return unit(hash(hash(own, salt_wave), static_cast<std::uint64_t>(wave))) < wave_share;
 }
 
-// Chance that somebody is excited in a period that starts at `tick`: each part of the stands has moods of its own.
-float excitement(float lap, std::int64_t tick) {
+// Chance that somebody is excited in a period that starts at `tick`: each part of the place has moods of its own.
+float excitement(float around, std::int64_t tick) {
     constexpr float parts = 20;
     constexpr std::int64_t mood_length = 15 * motion::ticks_per_second;
     constexpr float calmest = 0.04f, swing = 0.7f;
-    const std::uint64_t part = static_cast<std::uint64_t>(lap * parts);
+    const std::uint64_t part = static_cast<std::uint64_t>(around * parts);
     const std::uint64_t mood = static_cast<std::uint64_t>(floor_div(tick, mood_length));
     const float level = unit(hash(hash(salt_mood, part), mood));
     return calmest + swing * level * level * level;  // mostly calm
@@ -93,15 +75,15 @@ Action keep_acting(const Acts& acts, const motion::PoseTable& poses, std::uint32
 }
 
 // An act a period. The clips begin and end in one pose, so whoever waits between periods holds it.
-Action alternate(const Acts& acts, const motion::PoseTable& poses, std::uint32_t own, float lap, bool waves,
+Action alternate(const Acts& acts, const motion::PoseTable& poses, std::uint32_t own, float around, bool waves,
                  std::int64_t tick) {
     const std::int64_t length = length_of(poses, acts.calm.front());
     const std::int64_t phase = below(hash(own, salt_phase), static_cast<std::uint32_t>(length));
     const std::int64_t period = floor_div(tick + phase, length);
     const std::int64_t start = period * length - phase;
     if (waves && 3 * length < wave_interval) {
-        const std::int64_t wave = floor_div(tick - wave_start(0, lap, own), wave_interval);
-        const std::int64_t last = wave_start(wave, lap, own), next = last + wave_interval;
+        const std::int64_t wave = floor_div(tick - wave_start(0, around, own), wave_interval);
+        const std::int64_t last = wave_start(wave, around, own), next = last + wave_interval;
         if (start < last + length && takes_part(wave, own)) {
             if (tick < last + length) return {acts.excited.front(), tick - last};
             return {acts.calm.front(), 0};
@@ -109,7 +91,7 @@ Action alternate(const Acts& acts, const motion::PoseTable& poses, std::uint32_t
         if (start + length > next && takes_part(wave + 1, own)) return {acts.calm.front(), 0};
     }
     const std::uint64_t bits = hash(hash(own, salt_act), static_cast<std::uint64_t>(period));
-    const bool excited = unit(bits) < excitement(lap, start);
+    const bool excited = unit(bits) < excitement(around, start);
     return {choose(excited ? acts.excited : acts.calm, mix(bits)), tick - start};
 }
 
@@ -134,7 +116,7 @@ Action act(const Crowd& crowd, std::size_t person, const CastMember& member, con
     const Acts& acts = member.acts[static_cast<std::size_t>(role)];
     const std::uint32_t own = crowd.hash[person];
     if (is_athlete(role) || !acts_alternate(acts, poses)) return keep_acting(acts, poses, own, tick);
-    return alternate(acts, poses, own, lap_fraction(crowd.oval, crowd.position[person]), role == Role::spectator, tick);
+    return alternate(acts, poses, own, crowd.around[person], role == Role::spectator, tick);
 }
 
 bool has_arrived(const Crowd& crowd, std::size_t person, std::int64_t tick) {

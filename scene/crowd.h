@@ -50,6 +50,8 @@ struct Crowd {
     std::vector<float> height;  // [m] standing, 1.5-2.0
     std::vector<std::uint8_t> character;
     std::vector<Role> role;
+    // How far around the place, in [0, 1): waves and moods travel by it. Of no meaning to walkers and runners.
+    std::vector<float> around;
     std::vector<std::uint32_t> hash;  // the person's own random bits: phase, stagger, acts
     std::vector<Palette> palette;
     std::vector<CrowdBlock> blocks;

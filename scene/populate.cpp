@@ -62,6 +62,24 @@ motion::Bounds moved(const motion::Bounds& box, glm::vec3 by) {
     return {box.min + by, box.max + by};
 }
 
+// How far around the stands somebody sits, in [0, 1) from the start of the straight at +z, evenly along straights
+// and nearly so in bends.
+float lap_fraction(const Oval& oval, glm::vec3 position) {
+    constexpr float typical_offset = 28.0f;  // [m] of a seat
+    const float straight = 2.0f * oval.half_straight;
+    const float half_lap = straight + pi * (oval.radius + typical_offset);
+    const bool second_half = position.x < -oval.half_straight || (position.x < oval.half_straight && position.z < 0);
+    const float x = second_half ? -position.x : position.x, z = second_half ? -position.z : position.z;
+    float arc = x + oval.half_straight;
+    if (x >= oval.half_straight) {
+        const float beyond = x - oval.half_straight;
+        const float turn = 0.5f - 0.5f * z / std::fmax(beyond + std::fabs(z), 1e-3f);
+        arc = straight + turn * (half_lap - straight);
+    }
+    const float half = 0.5f * std::clamp(arc / half_lap, 0.0f, 0x1.fffffep-1f);
+    return second_half ? 0.5f + half : half;
+}
+
 // Fills a crowd block by block.
 struct Gathering {
     const StadiumPlan& plan;
@@ -76,7 +94,7 @@ struct Gathering {
     }
 
     // Grows the open block by one person of these looks.
-    void add(glm::vec3 position, float yaw, float height, std::uint8_t character, Role role, Fans fans) {
+    void add(glm::vec3 position, float yaw, float height, std::uint8_t character, Role role, float around, Fans fans) {
         const std::uint64_t own = bits(salt_person, crowd.size());
         position.y -= height / poses[character].rest_height * poses[character].floor;
         crowd.position.push_back(position);
@@ -84,6 +102,7 @@ struct Gathering {
         crowd.height.push_back(height);
         crowd.character.push_back(character);
         crowd.role.push_back(role);
+        crowd.around.push_back(around);
         crowd.hash.push_back(static_cast<std::uint32_t>(own >> 32));
         crowd.palette.push_back(dress(fans, hash(own, salt_looks)));
         ++crowd.blocks.back().count;
@@ -138,7 +157,7 @@ void add_athletes(Gathering& gathering, std::uint32_t count) {
             const float length = gathering.crowd.oval.length(offset);
             const float arc = std::fmod(slot / static_cast<float>(in_file) * length, length);
             gathering.add({offset, 0, arc}, 0, draw_height(hash(file_bits, salt_height)),
-                          gathering.draw_character(file_bits), role, {0.4f, 0.4f});
+                          gathering.draw_character(file_bits), role, 0, {0.4f, 0.4f});
         }
         gathering.close_block();
     }
@@ -192,7 +211,8 @@ void take_seat(Gathering& gathering, std::uint32_t which) {
         position += (hips_depth - stander_depth) * glm::vec3(std::sin(seat.yaw), 0, std::cos(seat.yaw));
     }
     gathering.add(position, seat.yaw + yaw_jitter * draw_triangle(hash(own, salt_yaw)), height, character,
-                  Role::spectator, fans_at(gathering.plan.oval, {seat.position.x, seat.position.z}));
+                  Role::spectator, lap_fraction(gathering.plan.oval, position),
+                  fans_at(gathering.plan.oval, {seat.position.x, seat.position.z}));
 }
 
 // Blocks are a section wide and up to `band_rows` rows deep: 150 to 400 people.
@@ -334,9 +354,10 @@ void stand(Gathering& gathering, const StandingPlace& place) {
     constexpr float yaw_jitter = 0.6f;  // [rad]
     constexpr Fans mixed_fans{0.3f, 0.1f};
     const float to_center = std::atan2(-place.xz.x, -place.xz.y);
-    gathering.add({place.xz.x, 0, place.xz.y}, to_center + yaw_jitter * draw_triangle(hash(place.bits, salt_yaw)),
+    const glm::vec3 feet(place.xz.x, 0, place.xz.y);
+    gathering.add(feet, to_center + yaw_jitter * draw_triangle(hash(place.bits, salt_yaw)),
                   draw_height(hash(place.bits, salt_height)), gathering.draw_character(hash(place.bits, salt_looks)),
-                  Role::standing, mixed_fans);
+                  Role::standing, lap_fraction(gathering.plan.oval, feet), mixed_fans);
 }
 
 // Puts up to `wanted` people on the innermost places between two parallels; returns how many found one.
@@ -373,6 +394,7 @@ void reserve(Crowd& crowd, std::size_t people) {
     crowd.height.reserve(people);
     crowd.character.reserve(people);
     crowd.role.reserve(people);
+    crowd.around.reserve(people);
     crowd.hash.reserve(people);
     crowd.palette.reserve(people);
 }

@@ -78,6 +78,7 @@ struct LonePeople {
             crowd.height.push_back(1.8f);
             crowd.character.push_back(0);
             crowd.role.push_back(scene::Role::standing);
+            crowd.around.push_back(0);
             crowd.hash.push_back(2654435761u * (number + 1));
             crowd.palette.emplace_back();
         }

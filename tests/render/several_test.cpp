@@ -63,6 +63,7 @@ struct Together {
                 crowd.character.push_back(character);
                 crowd.role.push_back(part.crowd.role[i]);
                 crowd.hash.push_back(part.crowd.hash[i]);
+                crowd.around.push_back(part.crowd.around[i]);
                 crowd.palette.push_back(part.crowd.palette[i]);
             }
         }

@@ -37,6 +37,7 @@ std::uint64_t fingerprint(const Crowd& crowd) {
     add(crowd.height);
     add(crowd.character);
     add(crowd.role);
+    add(crowd.around);
     add(crowd.hash);
     add(crowd.palette);
     return hash;
@@ -60,6 +61,7 @@ TEST(Populate, MakesExactlyAsManyAsAsked) {
         EXPECT_EQ(crowd.height.size(), count);
         EXPECT_EQ(crowd.character.size(), count);
         EXPECT_EQ(crowd.role.size(), count);
+        EXPECT_EQ(crowd.around.size(), count);
         EXPECT_EQ(crowd.hash.size(), count);
         EXPECT_EQ(crowd.palette.size(), count);
     }
