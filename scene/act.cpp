@@ -4,7 +4,6 @@
 
 #include "motion/schedule.h"
 #include "scene/crowd.h"
-#include "scene/layout.h"
 #include "scene/random.h"
 
 namespace scene {
@@ -100,13 +99,13 @@ Action alternate(const Acts& acts, const motion::PoseTable& poses, std::uint32_t
 Placement place(const Crowd& crowd, std::size_t person, const CastMember& member, std::int64_t tick) {
     const glm::vec3 at = crowd.position[person];
     const Role role = crowd.role[person];
-    if (!is_athlete(role)) return {at, crowd.yaw[person]};
+    if (!follows_path(role)) return {at, crowd.yaw[person]};
     constexpr double reference_height = 1.75;  // [m] that gait speeds are given at
     const double speed = static_cast<double>(member.gait_speed[static_cast<std::size_t>(role)]) *
                          static_cast<double>(crowd.height[person]) / reference_height;
     const double run = static_cast<double>(at.z) + speed * static_cast<double>(tick) / motion::ticks_per_second;
-    const float arc = static_cast<float>(std::fmod(run, static_cast<double>(crowd.oval.length(at.x))));
-    const glm::vec2 xz = crowd.oval.position(arc, at.x), ahead = crowd.oval.tangent(arc, at.x);
+    const float arc = static_cast<float>(std::fmod(run, static_cast<double>(crowd.path->length(at.x))));
+    const glm::vec2 xz = crowd.path->position(arc, at.x), ahead = crowd.path->tangent(arc, at.x);
     return {{xz.x, at.y, xz.y}, std::atan2(ahead.x, ahead.y)};
 }
 
@@ -115,7 +114,7 @@ Action act(const Crowd& crowd, std::size_t person, const CastMember& member, con
     const Role role = crowd.role[person];
     const Acts& acts = member.acts[static_cast<std::size_t>(role)];
     const std::uint32_t own = crowd.hash[person];
-    if (is_athlete(role) || !acts_alternate(acts, poses)) return keep_acting(acts, poses, own, tick);
+    if (follows_path(role) || !acts_alternate(acts, poses)) return keep_acting(acts, poses, own, tick);
     return alternate(acts, poses, own, crowd.around[person], role == Role::spectator, tick);
 }
 

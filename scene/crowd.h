@@ -4,18 +4,24 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "motion/pose.h"
 #include "motion/pose_table.h"
+#include "scene/path.h"
 #include "scene/stadium.h"
 
 namespace scene {
 
 enum class Role : std::uint8_t { spectator, standing, walker, runner };
 inline constexpr int role_count = 4;
+
+inline bool follows_path(Role role) {
+    return role == Role::walker || role == Role::runner;
+}
 
 // Which of a character's baked clips a role plays: indices into PoseTable::clips, all of one length if there are
 // several (then a person changes between them from clip to clip), the first being the calm one.
@@ -44,7 +50,8 @@ struct CrowdBlock {
 struct Crowd {
     // One element a person, blocks contiguous.
     // [m] Where the model's origin goes, so that who stands stands on the ground and who sits rests on the seat,
-    // whatever their size. For walkers and runners x = lane offset [m], y = height, z = arc at tick 0 [m].
+    // whatever their size. For walkers and runners x = offset of their parallel of the path [m], y =
+    // height, z = arc at tick 0 [m].
     std::vector<glm::vec3> position;
     std::vector<float> yaw;     // [rad]
     std::vector<float> height;  // [m] standing, 1.5-2.0
@@ -55,7 +62,7 @@ struct Crowd {
     std::vector<std::uint32_t> hash;  // the person's own random bits: phase, stagger, acts
     std::vector<Palette> palette;
     std::vector<CrowdBlock> blocks;
-    Oval oval;                     // the track
+    std::shared_ptr<const Path> path;  // that walkers and runners follow; may be null if there are none
     std::int64_t filled_tick = 0;  // from when everybody is there; before, people come in, each at a tick of their own
 
     std::size_t size() const { return position.size(); }

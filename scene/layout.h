@@ -49,10 +49,6 @@ inline float standing_pitch(const Room& room) {
     return std::fmax(0.75f, 0.5f * (room.width + room.depth));
 }
 
-inline bool is_athlete(Role role) {
-    return role == Role::walker || role == Role::runner;
-}
-
 // One in a hundred is an athlete, as long as the track has room to run.
 inline std::int64_t athlete_count(std::int64_t people) {
     return people / 100 < 200 ? people / 100 : 200;

@@ -127,13 +127,9 @@ struct Gathering {
         const motion::PoseTable& table = poses[crowd.character[person]];
         const float scale = crowd.height[person] / table.rest_height;
         const glm::vec3 position = crowd.position[person];
-        if (crowd.role[person] == Role::spectator || crowd.role[person] == Role::standing) {
-            return moved(turned(table.box, scale, crowd.yaw[person]), position);
-        }
-        const float radius = crowd.oval.radius + position.x;
-        const glm::vec3 lane(crowd.oval.half_straight + radius, 0, radius);
-        const motion::Bounds reach = turned_any_way(table.box, scale);
-        return moved({reach.min - lane, reach.max + lane}, {0, position.y, 0});
+        if (!follows_path(crowd.role[person])) return moved(turned(table.box, scale, crowd.yaw[person]), position);
+        const motion::Bounds way = crowd.path->bounds(position.x), reach = turned_any_way(table.box, scale);
+        return moved({way.min + reach.min, way.max + reach.max}, {0, position.y, 0});
     }
 };
 
@@ -154,7 +150,7 @@ void add_athletes(Gathering& gathering, std::uint32_t count) {
             const float offset = static_cast<float>(file / 2) * lane_width + (file % 2 == 0 ? inner_file : outer_file);
             const float slot = static_cast<float>(i / files) + unit(mix(file_bits)) +
                                (1 - clear_share) * unit(gathering.bits(salt_place, i));
-            const float length = gathering.crowd.oval.length(offset);
+            const float length = gathering.crowd.path->length(offset);
             const float arc = std::fmod(slot / static_cast<float>(in_file) * length, length);
             gathering.add({offset, 0, arc}, 0, draw_height(hash(file_bits, salt_height)),
                           gathering.draw_character(file_bits), role, 0, {0.4f, 0.4f});
@@ -421,7 +417,7 @@ Crowd populate(const StadiumPlan& plan, std::int64_t people, std::span<const Cas
     assert(people >= 1 && people <= 10'000'000);
     assert(!cast.empty() && cast.size() <= 256 && cast.size() == poses.size());
     Gathering gathering{plan, cast, poses, seed, {}};
-    gathering.crowd.oval = plan.oval;
+    gathering.crowd.path = std::make_shared<Oval>(plan.oval);
     reserve(gathering.crowd, static_cast<std::size_t>(people));
     const std::int64_t athletes = athlete_count(people);
     const std::int64_t seated = std::min(people - athletes, static_cast<std::int64_t>(plan.seats.size()));

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "motion/pose.h"
-#include "scene/oval.h"
+#include "scene/places/oval.h"
 
 namespace scene {
 

@@ -1,11 +1,13 @@
 // One person whom a test places, of a character that it makes: a crowd in which everything can be said in closed form.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "motion/pose_table.h"
 #include "render/select.h"
 #include "scene/crowd.h"
+#include "scene/places/oval.h"
 
 namespace tests {
 
@@ -58,7 +60,7 @@ struct LonePeople {
     std::vector<motion::PoseTable> poses;
     scene::Crowd crowd;
 
-    // Everybody of `of`, at `places` [m], facing +z; one block each.
+    // Everybody of `of`, at `places` [m], facing +z; one block each. Who is made a walker goes around an oval.
     LonePeople(model::Character of, std::span<const glm::vec3> places, std::size_t point_count = 0)
         : character(std::move(of)) {
         std::vector<motion::SurfacePoint> surface;
@@ -69,6 +71,7 @@ struct LonePeople {
         for (scene::Acts& acts : member.acts) acts.calm = {0};
         member.gait_speed[static_cast<int>(scene::Role::walker)] = 1.4f;
         cast.push_back(member);
+        crowd.path = std::make_shared<scene::Oval>();
         for (const glm::vec3& place : places) {
             const auto number = static_cast<std::uint32_t>(crowd.size());
             const float scale = 1.8f / poses[0].rest_height;

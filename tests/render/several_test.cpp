@@ -51,6 +51,7 @@ struct Together {
     std::vector<figures::Figure> figures;
 
     explicit Together(const std::vector<tests::LonePeople>& parts) {
+        crowd.path = parts[0].crowd.path;
         for (const tests::LonePeople& part : parts) {
             const auto character = static_cast<std::uint8_t>(figures.size());
             cast.push_back(part.cast[0]);

@@ -67,7 +67,8 @@ const Watched& standing() {
 }
 
 // How far around the stadium somebody sits, in [0, 1): along the parallel that goes through the middle of the stands.
-double lap_of(const scene::Oval& oval, glm::vec3 position) {
+double lap_of(glm::vec3 position) {
+    const scene::Oval oval;
     const double half_straight = oval.half_straight, radius = static_cast<double>(oval.radius) + 28;
     const double half_lap = 2 * half_straight + std::numbers::pi * radius;
     const double x = position.x, z = position.z;
@@ -196,7 +197,7 @@ std::vector<std::vector<std::size_t>> by_part(const Watched& watched) {
     constexpr double border = 0.16;  // of a part
     std::vector<std::vector<std::size_t>> result(parts);
     for (const std::size_t i : watched.people(Role::spectator)) {
-        const double at = parts * lap_of(watched.crowd.oval, watched.crowd.position[i]);
+        const double at = parts * lap_of(watched.crowd.position[i]);
         if (std::abs(at - std::round(at)) > border) result[static_cast<std::size_t>(at)].push_back(i);
     }
     return result;
@@ -292,7 +293,7 @@ constexpr double straightness = 12;  // [ticks] by which the wave's front may be
 
 double front_tick(const Watched& watched, std::size_t i, int number) {
     return static_cast<double>(number * wave_interval + first_wave) +
-           lap_of(watched.crowd.oval, watched.crowd.position[i]) * static_cast<double>(wave_lap);
+           lap_of(watched.crowd.position[i]) * static_cast<double>(wave_lap);
 }
 
 // The tick at which somebody jumps up around the time that the wave comes by.
@@ -338,7 +339,7 @@ TEST(Waves, GoOnceAroundIn20SecondsAtAnEvenPace) {
         ++all;
         early += delay < -straightness;
         late += delay > straightness + reaction;
-        delays[static_cast<int>(16 * lap_of(stands().crowd.oval, stands().crowd.position[i]))].push_back(delay);
+        delays[static_cast<int>(16 * lap_of(stands().crowd.position[i]))].push_back(delay);
     }
     // Some of those who take no part cheer of their own accord in that second.
     EXPECT_LT(early + late, all / 100);
@@ -350,7 +351,7 @@ TEST(Waves, ReactionTakesUpToAQuarterOfASecond) {
     std::vector<std::int64_t> counts(15, 0);
     for (const std::size_t i : stands().people(Role::spectator)) {
         // On the straights, where the front's place is exact.
-        if (std::abs(stands().crowd.position[i].x) > stands().crowd.oval.half_straight) continue;
+        if (std::abs(stands().crowd.position[i].x) > scene::Oval().half_straight) continue;
         const auto tick = jump(stands(), i, 1);
         if (!tick) continue;
         const double delay = static_cast<double>(*tick) - std::floor(front_tick(stands(), i, 1) + 1e-2);
@@ -438,7 +439,7 @@ TEST(Arrival, HasNothingToDoWithWhatElseChanceDecides) {
     std::vector<double> reaction, arrival;
     for (const std::size_t i : some_spectators()) {
         const auto tick = jump(stands(), i, 1);
-        if (!tick || std::abs(stands().crowd.position[i].x) > stands().crowd.oval.half_straight) continue;
+        if (!tick || std::abs(stands().crowd.position[i].x) > scene::Oval().half_straight) continue;
         Crowd filling = {};
         filling.hash = {stands().crowd.hash[i]};
         filling.filled_tick = 1000;

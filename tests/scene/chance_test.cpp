@@ -532,7 +532,7 @@ TEST(Athletes, KeepTheirDistanceInTheFileAllAround) {
     for (const std::int64_t people : {1600, 5000, 9900, 20000}) {
         const Crowd crowd = tests::populate(cast, people);
         for (const auto& [offset, file] : files_of(crowd)) {
-            const float lap = crowd.oval.length(offset), mean = lap / static_cast<float>(file.size());
+            const float lap = crowd.path->length(offset), mean = lap / static_cast<float>(file.size());
             for (std::size_t i = 0; i < file.size(); ++i) {
                 ASSERT_GE(file[i].arc, 0.0f);
                 ASSERT_LT(file[i].arc, lap);
@@ -564,7 +564,7 @@ TEST(Athletes, ArePlacedAtRandomAroundTheLap) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         const Crowd crowd = tests::populate(cast, 20000, seed);
         for (const auto& [offset, file] : files_of(crowd)) {
-            const double lap = crowd.oval.length(offset), mean = lap / static_cast<double>(file.size());
+            const double lap = crowd.path->length(offset), mean = lap / static_cast<double>(file.size());
             starts.insert(static_cast<int>(8 * file[0].arc / mean));
             for (std::size_t i = 0; i < file.size(); ++i) {
                 ++eighths[static_cast<std::size_t>(8 * file[i].arc / lap)];

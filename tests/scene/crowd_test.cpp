@@ -157,7 +157,7 @@ TEST(Populate, OnlyAthletesUseTheTrack) {
         for (const std::int64_t tick : {std::int64_t{0}, std::int64_t{77'777}}) {
             const std::vector<glm::vec3> at = places(crowd, cast, tick);
             for (std::size_t i = 0; i < crowd.size(); ++i) {
-                const float offset = crowd.oval.offset_of({at[i].x, at[i].z});
+                const float offset = scene::Oval().offset_of({at[i].x, at[i].z});
                 ASSERT_EQ(is_athlete(crowd.role[i]), offset > -0.5f && offset < track_width + 0.5f);
                 if (is_athlete(crowd.role[i])) {
                     ASSERT_TRUE(offset > 0.2f && offset < track_width - 0.2f);
@@ -260,9 +260,9 @@ TEST(Place, AthletesRunAtTheirSpeedInClosedForm) {
         const double speed = static_cast<double>(member.gait_speed[static_cast<std::size_t>(crowd.role[i])]) *
                              static_cast<double>(crowd.height[i]) / 1.75;
         const double arc = static_cast<double>(crowd.position[i].z) + speed * hours * 3600;
-        const double lap = crowd.oval.length(crowd.position[i].x);
+        const double lap = crowd.path->length(crowd.position[i].x);
         const glm::vec2 expected =
-            crowd.oval.position(static_cast<float>(arc - lap * std::floor(arc / lap)), crowd.position[i].x);
+            crowd.path->position(static_cast<float>(arc - lap * std::floor(arc / lap)), crowd.position[i].x);
         const scene::Placement at = scene::place(crowd, i, member, tick);
         EXPECT_LT(glm::distance(glm::vec2(at.position.x, at.position.z), expected), tolerance);
         EXPECT_EQ(at.position.y, 0.0f);
@@ -373,8 +373,8 @@ TEST(Act, AWaveGoesAroundTheStadiumInOrder) {
     constexpr float offset = 25.0f;
     std::vector<double> arrivals;
     for (int part = 0; part < parts; ++part) {
-        const float arc = crowd.oval.length(offset) * (static_cast<float>(part) + 0.5f) / parts;
-        const glm::vec2 post = crowd.oval.position(arc, offset);
+        const float arc = crowd.path->length(offset) * (static_cast<float>(part) + 0.5f) / parts;
+        const glm::vec2 post = crowd.path->position(arc, offset);
         std::vector<std::size_t> people;
         for (std::size_t i = 0; i < crowd.size(); ++i) {
             if (crowd.role[i] != Role::spectator) continue;

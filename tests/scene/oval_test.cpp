@@ -1,4 +1,4 @@
-#include "scene/oval.h"
+#include "scene/places/oval.h"
 
 #include <gtest/gtest.h>
 

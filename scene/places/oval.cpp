@@ -1,4 +1,4 @@
-#include "scene/oval.h"
+#include "scene/places/oval.h"
 
 #include <cmath>
 #include <numbers>
@@ -61,6 +61,12 @@ glm::vec2 Oval::outward(float arc, float offset) const {
 glm::vec2 Oval::tangent(float arc, float offset) const {
     const glm::vec2 out = outward(arc, offset);
     return {out.y, -out.x};
+}
+
+motion::Bounds Oval::bounds(float offset) const {
+    const float bend_radius = radius + offset;
+    const glm::vec3 reach(half_straight + bend_radius, 0, bend_radius);
+    return {-reach, reach};
 }
 
 float Oval::offset_of(glm::vec2 xz) const {

@@ -1,0 +1,23 @@
+// A line on the ground that people walk and run along, and its parallels.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "motion/pose.h"
+
+namespace scene {
+
+// `offset` [m] says which parallel, outward positive; which of them there are is the path's own business. `arc` [m] is
+// the way along a parallel, and wraps: who has gone its length is at arc 0 again. So a path that is no loop leads back
+// along itself, or begins anew where nobody looks.
+class Path {
+public:
+    virtual ~Path() = default;
+
+    virtual float length(float offset) const = 0;                   // [m] of the parallel, above 0
+    virtual glm::vec2 position(float arc, float offset) const = 0;  // x, z [m]
+    virtual glm::vec2 tangent(float arc, float offset) const = 0;   // unit, in the direction of growing arc
+    virtual motion::Bounds bounds(float offset) const = 0;          // [m] of the whole parallel; flat, at y = 0
+};
+
+}  // namespace scene
