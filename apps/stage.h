@@ -13,7 +13,7 @@
 #include "motion/pose_table.h"
 #include "pointsample/point_model.h"
 #include "scene/crowd.h"
-#include "scene/stadium.h"
+#include "scene/places/stadium.h"
 
 namespace apps {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/stadium.h"
+#include "scene/places/stadium.h"
 
 namespace scene {
 

@@ -12,7 +12,6 @@
 #include "motion/pose.h"
 #include "motion/pose_table.h"
 #include "scene/path.h"
-#include "scene/stadium.h"
 
 namespace scene {
 
@@ -77,15 +76,6 @@ struct Action {
     std::uint8_t clip;       // into PoseTable::clips
     std::int64_t clip_tick;  // of the clip's own time
 };
-
-// The room that the widest and the deepest of the cast need while they watch: a seat if all sit, else a place on a
-// terrace. Characters much longer than tall (a fox) still overlap.
-Room room_for(std::span<const CastMember> cast, std::span<const motion::PoseTable> poses);
-
-// Seats first (seeded choice of who sits where, athletes on the track), then the pitch and around, out to as far as it
-// takes. `people` in [1, 10'000'000]. The cast's poses are needed for the blocks' boxes: one PoseTable a member.
-Crowd populate(const StadiumPlan& plan, std::int64_t people, std::span<const CastMember> cast,
-               std::span<const motion::PoseTable> poses, std::uint64_t seed);
 
 Placement place(const Crowd& crowd, std::size_t person, const CastMember& member, std::int64_t tick);
 

@@ -38,14 +38,6 @@ glm::u8vec4 pick(const std::array<glm::u8vec4, N>& from, std::uint64_t bits) {
 
 }  // namespace
 
-// Home fans own the bend at +x, away fans a part of the one at -x, and both are guests elsewhere.
-Fans fans_at(const Oval& oval, glm::vec2 xz) {
-    constexpr Fans home_end{0.78f, 0.01f}, away_end{0.04f, 0.8f}, elsewhere{0.24f, 0.06f};
-    if (xz.x > oval.half_straight) return home_end;
-    if (xz.x < -oval.half_straight && xz.y < 0) return away_end;
-    return elsewhere;
-}
-
 Palette dress(Fans fans, std::uint64_t bits) {
     const auto next = [&] { return bits = mix(bits); };
     Palette palette;

@@ -12,9 +12,6 @@ struct Fans {
     float home, away;
 };
 
-// Among the spectators at x, z.
-Fans fans_at(const Oval& oval, glm::vec2 xz);
-
 Palette dress(Fans fans, std::uint64_t bits);
 
 // [m] of a standing adult.

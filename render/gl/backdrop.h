@@ -5,7 +5,7 @@
 
 #include "render/gl/objects.h"
 #include "render/view.h"
-#include "scene/stadium.h"
+#include "scene/places/stadium.h"
 
 namespace render::gl {
 

@@ -12,7 +12,7 @@
 #include "render/gl/figure_drawer.h"
 #include "render/gl/objects.h"
 #include "render/image.h"
-#include "scene/stadium.h"
+#include "scene/places/stadium.h"
 
 namespace render::gl {
 

@@ -14,7 +14,7 @@
 #include "pointsample/point_model.h"
 #include "scene/camera_path.h"
 #include "scene/crowd.h"
-#include "scene/stadium.h"
+#include "scene/places/stadium.h"
 #include "sfsm/decision.h"
 #include "tests/reference/surface.h"
 

@@ -11,7 +11,7 @@
 #include "scene/cast.h"
 #include "scene/crowd.h"
 #include "scene/person.h"
-#include "scene/stadium.h"
+#include "scene/places/stadium.h"
 
 namespace tests {
 

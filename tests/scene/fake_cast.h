@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "motion/pose_table.h"
-#include "scene/crowd.h"
+#include "scene/places/stadium.h"
 
 namespace tests {
 

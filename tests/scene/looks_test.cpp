@@ -8,6 +8,7 @@
 #include <set>
 #include <tuple>
 
+#include "scene/places/stadium_layout.h"
 #include "scene/random.h"
 #include "tests/scene/statistics.h"
 

@@ -8,7 +8,7 @@
 
 #include "motion/pose.h"
 #include "scene/person.h"
-#include "scene/stadium.h"
+#include "scene/places/stadium.h"
 
 namespace {
 

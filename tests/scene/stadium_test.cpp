@@ -1,4 +1,4 @@
-#include "scene/stadium.h"
+#include "scene/places/stadium.h"
 
 #include <gtest/gtest.h>
 

@@ -11,8 +11,8 @@
 #include <unordered_map>
 
 #include "scene/crowd.h"
+#include "scene/places/stadium.h"
 #include "scene/random.h"
-#include "scene/stadium.h"
 #include "tests/scene/fake_cast.h"
 
 namespace {

@@ -6,10 +6,8 @@
 #include <numeric>
 #include <utility>
 
-#include "scene/crowd.h"
-#include "scene/layout.h"
-#include "scene/looks.h"
 #include "scene/person.h"
+#include "scene/places/stadium_layout.h"
 #include "scene/random.h"
 
 namespace scene {
@@ -397,19 +395,12 @@ void reserve(Crowd& crowd, std::size_t people) {
 
 }  // namespace
 
-Room room_for(std::span<const CastMember> cast, std::span<const motion::PoseTable> poses) {
-    constexpr float height = 1.7f;                  // [m] of people on average
-    constexpr float widest = 1.5f, deepest = 2.4f;  // [m] beyond, neighbours overlap: stands must stay stands
-    Room room;
-    for (std::size_t i = 0; i < cast.size(); ++i) {
-        if (cast[i].sits) continue;
-        room.seats = false;
-        const std::uint8_t clip = cast[i].acts[static_cast<int>(Role::spectator)].calm.front();
-        const glm::vec3 size = height / poses[i].rest_height * poses[i].clip_boxes[clip].size();
-        room.width = std::clamp(size.x, room.width, widest);
-        room.depth = std::clamp(size.z, room.depth, deepest);
-    }
-    return room;
+// Home fans own the bend at +x, away fans a part of the one at -x, and both are guests elsewhere.
+Fans fans_at(const Oval& oval, glm::vec2 xz) {
+    constexpr Fans home_end{0.78f, 0.01f}, away_end{0.04f, 0.8f}, elsewhere{0.24f, 0.06f};
+    if (xz.x > oval.half_straight) return home_end;
+    if (xz.x < -oval.half_straight && xz.y < 0) return away_end;
+    return elsewhere;
 }
 
 Crowd populate(const StadiumPlan& plan, std::int64_t people, std::span<const CastMember> cast,

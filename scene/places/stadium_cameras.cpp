@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "scene/camera_path.h"
-#include "scene/layout.h"
+#include "scene/places/stadium_layout.h"
 
 namespace scene {
 

@@ -3,8 +3,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "scene/layout.h"
-#include "scene/stadium.h"
+#include "scene/places/stadium_layout.h"
 
 namespace scene {
 

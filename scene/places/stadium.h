@@ -1,12 +1,13 @@
-// The stadium: where its seats are, and what it looks like without people. Plain data, no GL.
+// The stadium: where its seats are, and what it looks like without people.
 #pragma once
 
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "motion/pose.h"
 #include "scene/places/oval.h"
+#include "scene/room.h"
+#include "scene/static_mesh.h"
 
 namespace scene {
 
@@ -39,13 +40,6 @@ struct Roof {
     float inner_height = 0, outer_height = 0;  // [m] of its top
 };
 
-// What one spectator takes up on the stands.
-struct Room {
-    float width = 0.52f;  // [m] along the row, in [0.52, 3]
-    float depth = 0.8f;   // [m] of the tread, in [0.8, 3]
-    bool seats = true;    // else people stand on bare terraces
-};
-
 // Rows of seats in one or two tiers around the oval, in sections between aisles.
 struct StadiumPlan {
     std::int64_t people = 0;  // planned for
@@ -66,28 +60,12 @@ struct StadiumPlan {
 // `people` >= 1.
 StadiumPlan plan_stadium(std::int64_t people, const Room& room = {});
 
-// What the ground shader draws instead of a plain colour.
-enum class Surface : std::uint8_t { painted, ground };
-
-struct StaticVertex {
-    glm::vec3 position;  // [m]
-    glm::vec3 normal;    // unit
-    glm::u8vec4 color;   // sRGB; alpha: static_cast of Surface
-};
-
-// Part of the structure that is drawn or culled as one.
-struct StaticSector {
-    motion::Bounds box;
-    std::uint32_t first_index = 0, index_count = 0;
-};
-
-struct StaticMesh {
-    std::vector<StaticVertex> vertices;
-    std::vector<std::uint32_t> indices;  // three a triangle, counter-clockwise seen from outside
-    std::vector<StaticSector> sectors;
-};
-
 // Steps, seats, walls, roof, rim, floodlights, and the ground: pitch, track and surroundings out to 2 km.
 StaticMesh build_structure(const StadiumPlan& plan);
+
+// Seats first (seeded choice of who sits where, athletes on the track), then the pitch and around, out to as far as it
+// takes. `people` in [1, 10'000'000]. The cast's poses are needed for the blocks' boxes: one PoseTable a member.
+Crowd populate(const StadiumPlan& plan, std::int64_t people, std::span<const CastMember> cast,
+               std::span<const motion::PoseTable> poses, std::uint64_t seed);
 
 }  // namespace scene

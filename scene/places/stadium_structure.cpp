@@ -1,26 +1,15 @@
-// build_structure: profiles swept from spoke to spoke, and what stands beside them. All surfaces are single-sided
-// and flat-shaded: a quad has four vertices of its own.
+// build_structure: profiles swept from spoke to spoke, and what stands beside them.
 #include <algorithm>
 #include <array>
-#include <cassert>
-#include <cmath>
-#include <initializer_list>
-#include <span>
+#include <utility>
 
-#include "scene/layout.h"
 #include "scene/person.h"
-#include "scene/stadium.h"
+#include "scene/places/stadium_layout.h"
+#include "scene/static_mesh_builder.h"
 
 namespace scene {
 
 namespace {
-
-using Color = glm::u8vec4;
-
-constexpr Color painted(int red, int green, int blue) {
-    return {static_cast<std::uint8_t>(red), static_cast<std::uint8_t>(green), static_cast<std::uint8_t>(blue),
-            static_cast<std::uint8_t>(Surface::painted)};
-}
 
 constexpr Color tread_grey = painted(158, 157, 152), riser_grey = painted(132, 131, 127);
 constexpr Color aisle_grey = painted(198, 196, 188), wall_grey = painted(176, 175, 170);
@@ -29,7 +18,6 @@ constexpr Color doorway = painted(38, 40, 44), coping = painted(222, 221, 216);
 constexpr Color roof_white = painted(236, 238, 240), roof_under = painted(188, 192, 197);
 constexpr Color steel = painted(214, 218, 222), lamp = painted(255, 252, 236);
 constexpr Color screen_frame = painted(30, 32, 38), screen_light = painted(70, 120, 170);
-constexpr Color paving = {146, 143, 137, static_cast<std::uint8_t>(Surface::ground)};
 constexpr std::array seat_colors{painted(24, 62, 122), painted(52, 104, 170), painted(206, 214, 224)};
 constexpr std::array advert_colors{painted(190, 34, 46),  painted(242, 242, 238), painted(20, 92, 62),
                                    painted(240, 176, 32), painted(28, 54, 112),   painted(242, 242, 238)};
@@ -52,17 +40,8 @@ glm::vec3 lift(glm::vec2 xz, float height) {
     return {xz.x, height, xz.y};
 }
 
-struct Builder {
+struct Builder : StaticMeshBuilder {
     const StadiumPlan& plan;
-    StaticMesh mesh;
-
-    // a, b, c, d counter-clockwise seen from the visible side.
-    void quad(glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d, Color color) {
-        const glm::vec3 normal = glm::normalize(glm::cross(c - a, d - b));
-        const std::uint32_t first = static_cast<std::uint32_t>(mesh.vertices.size());
-        for (const glm::vec3& corner : {a, b, c, d}) mesh.vertices.push_back({corner, normal, color});
-        for (const std::uint32_t index : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + index);
-    }
 
     glm::vec2 on_chord(std::size_t section, Along along, float offset) const {
         const glm::vec2 from = plan.spokes[section].at(offset);
@@ -81,50 +60,6 @@ struct Builder {
 
     void sweep(std::size_t section, Corner from, Corner to, Color color) {
         sweep(section, from, to, {0, 0}, {1, 0}, color);
-    }
-
-    // A four-sided column from `foot` to `head`, `width` [m] wide, open at both ends. Its sides are parallel to `x`.
-    void column(glm::vec3 foot, glm::vec3 head, glm::vec3 x, float width, float head_width, Color color) {
-        const glm::vec3 axis = glm::normalize(head - foot);
-        const glm::vec3 y = glm::normalize(glm::cross(axis, x));
-        const glm::vec3 side = glm::cross(y, axis);
-        const auto corner = [&](glm::vec3 end, float size, int i) {
-            const float u = i == 0 || i == 3 ? -0.5f : 0.5f, v = i < 2 ? -0.5f : 0.5f;
-            return end + size * (u * side + v * y);
-        };
-        for (int i = 0; i < 4; ++i) {
-            const int next = (i + 1) % 4;
-            quad(corner(foot, width, i), corner(foot, width, next), corner(head, head_width, next),
-                 corner(head, head_width, i), color);
-        }
-    }
-
-    // All six sides of a box with half axes x, y, z, right-handed.
-    void box(glm::vec3 center, glm::vec3 x, glm::vec3 y, glm::vec3 z, Color front, Color others) {
-        const auto face = [&](glm::vec3 out, glm::vec3 right, glm::vec3 up, Color color) {
-            const glm::vec3 middle = center + out;
-            quad(middle - right - up, middle + right - up, middle + right + up, middle - right + up, color);
-        };
-        face(z, x, y, front);
-        face(-z, -x, y, others);
-        face(x, -z, y, others);
-        face(-x, z, y, others);
-        face(y, x, -z, others);
-        face(-y, x, z, others);
-    }
-
-    // Everything added since `first_index` becomes a sector.
-    void close_sector(std::uint32_t first_index) {
-        StaticSector sector;
-        sector.first_index = first_index;
-        sector.index_count = static_cast<std::uint32_t>(mesh.indices.size()) - first_index;
-        assert(sector.index_count > 0);
-        sector.box.min = sector.box.max = mesh.vertices[mesh.indices[first_index]].position;
-        for (const std::uint32_t index : std::span(mesh.indices).subspan(first_index)) {
-            sector.box.min = glm::min(sector.box.min, mesh.vertices[index].position);
-            sector.box.max = glm::max(sector.box.max, mesh.vertices[index].position);
-        }
-        mesh.sectors.push_back(sector);
     }
 };
 
@@ -314,18 +249,6 @@ void add_screen(Builder& builder, float side) {
     }
 }
 
-// One flat sheet, finer where cameras are, so that world x and z interpolate exactly enough to draw lines from.
-void add_ground(Builder& builder) {
-    constexpr std::array lines{-2000.0f, -1000.0f, -500.0f, -250.0f, -120.0f, -80.0f,  -40.0f, 0.0f,
-                               40.0f,    80.0f,    120.0f,  250.0f,  500.0f,  1000.0f, 2000.0f};  // [m]
-    for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
-        for (std::size_t j = 0; j + 1 < lines.size(); ++j) {
-            const float x0 = lines[i], x1 = lines[i + 1], z0 = lines[j], z1 = lines[j + 1];
-            builder.quad({x0, 0, z1}, {x1, 0, z1}, {x1, 0, z0}, {x0, 0, z0}, paving);
-        }
-    }
-}
-
 void add_section(Builder& builder, std::size_t section) {
     add_front_wall(builder, section);
     add_rows(builder, section);
@@ -339,25 +262,22 @@ void add_section(Builder& builder, std::size_t section) {
 }  // namespace
 
 StaticMesh build_structure(const StadiumPlan& plan) {
-    Builder builder{plan, {}};
+    Builder builder{{}, plan};
     const std::size_t sections = plan.spokes.size();
     const std::size_t sectors = std::min(sections, target_sectors);
     for (std::size_t sector = 0; sector < sectors; ++sector) {
-        const std::uint32_t first = static_cast<std::uint32_t>(builder.mesh.indices.size());
         for (std::size_t i = sector * sections / sectors; i < (sector + 1) * sections / sectors; ++i) {
             add_section(builder, i);
         }
-        builder.close_sector(first);
+        builder.close_sector();
     }
-    std::uint32_t first = static_cast<std::uint32_t>(builder.mesh.indices.size());
     for (int light = 0; light < floodlight_count; ++light) add_floodlight(builder, light);
     if (has_roof(plan)) {
         for (const float side : {-1.0f, 1.0f}) add_screen(builder, side);
     }
-    builder.close_sector(first);
-    first = static_cast<std::uint32_t>(builder.mesh.indices.size());
-    add_ground(builder);
-    builder.close_sector(first);
+    builder.close_sector();
+    builder.ground();
+    builder.close_sector();
     return std::move(builder.mesh);
 }
 

@@ -1,0 +1,33 @@
+// What stands in a place and never moves, ready to be drawn. Plain data, no GL.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "motion/pose.h"
+
+namespace scene {
+
+// What the ground shader draws instead of a plain colour.
+enum class Surface : std::uint8_t { painted, ground };
+
+struct StaticVertex {
+    glm::vec3 position;  // [m]
+    glm::vec3 normal;    // unit
+    glm::u8vec4 color;   // sRGB; alpha: static_cast of Surface
+};
+
+// Part of the structure that is drawn or culled as one.
+struct StaticSector {
+    motion::Bounds box;
+    std::uint32_t first_index = 0, index_count = 0;
+};
+
+struct StaticMesh {
+    std::vector<StaticVertex> vertices;
+    std::vector<std::uint32_t> indices;  // three a triangle, counter-clockwise seen from outside
+    std::vector<StaticSector> sectors;
+};
+
+}  // namespace scene
