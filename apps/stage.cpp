@@ -70,7 +70,7 @@ std::unique_ptr<Stage> build_stage(const std::vector<std::filesystem::path>& cha
     stage->plan = scene::plan_stadium(people, scene::room_for(stage->cast, stage->poses));
     stage->structure = scene::build_structure(stage->plan);
     bar(0.5);
-    stage->crowd = scene::populate(stage->plan, people, stage->cast, stage->poses, seed);
+    stage->crowd = scene::populate(stage->plan, {people, stage->cast, stage->poses, seed});
     return stage;
 }
 

@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "scene/audience.h"
 #include "scene/places/oval.h"
 #include "scene/room.h"
 #include "scene/static_mesh.h"
@@ -64,8 +65,7 @@ StadiumPlan plan_stadium(std::int64_t people, const Room& room = {});
 StaticMesh build_structure(const StadiumPlan& plan);
 
 // Seats first (seeded choice of who sits where, athletes on the track), then the pitch and around, out to as far as it
-// takes. `people` in [1, 10'000'000]. The cast's poses are needed for the blocks' boxes: one PoseTable a member.
-Crowd populate(const StadiumPlan& plan, std::int64_t people, std::span<const CastMember> cast,
-               std::span<const motion::PoseTable> poses, std::uint64_t seed);
+// takes.
+Crowd populate(const StadiumPlan& plan, const Audience& audience);
 
 }  // namespace scene

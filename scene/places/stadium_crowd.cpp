@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "scene/person.h"
+#include "scene/gathering.h"
 #include "scene/places/stadium_layout.h"
 #include "scene/random.h"
 
@@ -14,50 +14,9 @@ namespace scene {
 
 namespace {
 
-// What a random number is for. Distinct values keep choices independent of each other.
-enum Salt : std::uint64_t {
-    salt_person = 1,
-    salt_seat,
-    salt_lane,
-    salt_place,
-    salt_density,
-    salt_looks,
-    salt_height,
-    salt_yaw,
-};
-
 // In [-1, 1), more often near 0.
 float draw_triangle(std::uint64_t bits) {
     return unit(bits) + unit(mix(bits)) - 1.0f;
-}
-
-// Room for rounding when a shader scales and turns a person in another order [m].
-constexpr float box_margin = 0.01f;
-
-void include(motion::Bounds& box, const motion::Bounds& other) {
-    box.min = glm::min(box.min, other.min);
-    box.max = glm::max(box.max, other.max);
-}
-
-// What somebody with this pose box touches who stands at the origin, turned by `yaw`.
-motion::Bounds turned(const motion::Bounds& box, float scale, float yaw) {
-    const float c = std::cos(yaw), s = std::sin(yaw);
-    const glm::vec3 center = scale * box.center(), half = 0.5f * scale * box.size();
-    const glm::vec3 middle(c * center.x + s * center.z, center.y, c * center.z - s * center.x);
-    const glm::vec3 reach(std::fabs(c) * half.x + std::fabs(s) * half.z, half.y,
-                          std::fabs(s) * half.x + std::fabs(c) * half.z);
-    return {middle - reach - box_margin, middle + reach + box_margin};
-}
-
-// What somebody touches who may be turned any way.
-motion::Bounds turned_any_way(const motion::Bounds& box, float scale) {
-    const glm::vec3 far = glm::max(glm::abs(box.min), glm::abs(box.max));
-    const float reach = scale * std::hypot(far.x, far.z) + box_margin;
-    return {{-reach, scale * box.min.y - box_margin, -reach}, {reach, scale * box.max.y + box_margin, reach}};
-}
-
-motion::Bounds moved(const motion::Bounds& box, glm::vec3 by) {
-    return {box.min + by, box.max + by};
 }
 
 // How far around the stands somebody sits, in [0, 1) from the start of the straight at +z, evenly along straights
@@ -78,62 +37,9 @@ float lap_fraction(const Oval& oval, glm::vec3 position) {
     return second_half ? 0.5f + half : half;
 }
 
-// Fills a crowd block by block.
-struct Gathering {
-    const StadiumPlan& plan;
-    std::span<const CastMember> cast;
-    std::span<const motion::PoseTable> poses;
-    std::uint64_t seed;
-    Crowd crowd;
-
-    std::uint64_t bits(Salt salt, std::uint64_t which) const { return hash(hash(seed, salt), which); }
-    std::uint8_t draw_character(std::uint64_t from) const {
-        return static_cast<std::uint8_t>(below(from, static_cast<std::uint32_t>(cast.size())));
-    }
-
-    // Grows the open block by one person of these looks.
-    void add(glm::vec3 position, float yaw, float height, std::uint8_t character, Role role, float around, Fans fans) {
-        const std::uint64_t own = bits(salt_person, crowd.size());
-        position.y -= height / poses[character].rest_height * poses[character].floor;
-        crowd.position.push_back(position);
-        crowd.yaw.push_back(yaw);
-        crowd.height.push_back(height);
-        crowd.character.push_back(character);
-        crowd.role.push_back(role);
-        crowd.around.push_back(around);
-        crowd.hash.push_back(static_cast<std::uint32_t>(own >> 32));
-        crowd.palette.push_back(dress(fans, hash(own, salt_looks)));
-        ++crowd.blocks.back().count;
-    }
-
-    void open_block() { crowd.blocks.push_back({static_cast<std::uint32_t>(crowd.size()), 0, {}}); }
-
-    void close_block() {
-        CrowdBlock& block = crowd.blocks.back();
-        if (block.count == 0) {
-            crowd.blocks.pop_back();
-            return;
-        }
-        for (std::size_t i = block.first; i < block.first + block.count; ++i) {
-            const motion::Bounds reach = reach_of(i);
-            if (i == block.first) block.box = reach;
-            include(block.box, reach);
-        }
-    }
-
-    motion::Bounds reach_of(std::size_t person) const {
-        const motion::PoseTable& table = poses[crowd.character[person]];
-        const float scale = crowd.height[person] / table.rest_height;
-        const glm::vec3 position = crowd.position[person];
-        if (!follows_path(crowd.role[person])) return moved(turned(table.box, scale, crowd.yaw[person]), position);
-        const motion::Bounds way = crowd.path->bounds(position.x), reach = turned_any_way(table.box, scale);
-        return moved({way.min + reach.min, way.max + reach.max}, {0, position.y, 0});
-    }
-};
-
 // Athletes run in files, two a lane. A file has one character and one height, hence one speed, so that nobody ever
 // runs through anybody. Runners have the inner lanes.
-void add_athletes(Gathering& gathering, std::uint32_t count) {
+void add_athletes(Gathering& gathering, const Oval& track, std::uint32_t count) {
     constexpr std::uint32_t files = 2 * lane_count, runner_files = 10;
     constexpr std::uint32_t stride = 5;  // coprime to the number of files: few athletes spread over all lanes
     constexpr float inner_file = 0.32f, outer_file = 0.90f;  // [m] from the lane's inner line
@@ -148,10 +54,13 @@ void add_athletes(Gathering& gathering, std::uint32_t count) {
             const float offset = static_cast<float>(file / 2) * lane_width + (file % 2 == 0 ? inner_file : outer_file);
             const float slot = static_cast<float>(i / files) + unit(mix(file_bits)) +
                                (1 - clear_share) * unit(gathering.bits(salt_place, i));
-            const float length = gathering.crowd.path->length(offset);
+            const float length = track.length(offset);
             const float arc = std::fmod(slot / static_cast<float>(in_file) * length, length);
-            gathering.add({offset, 0, arc}, 0, draw_height(hash(file_bits, salt_height)),
-                          gathering.draw_character(file_bits), role, 0, {0.4f, 0.4f});
+            gathering.add({.position = {offset, 0, arc},
+                           .height = draw_height(hash(file_bits, salt_height)),
+                           .character = gathering.draw_character(file_bits),
+                           .role = role,
+                           .fans = {0.4f, 0.4f}});
         }
         gathering.close_block();
     }
@@ -173,8 +82,7 @@ std::vector<std::uint32_t> smallest(const std::vector<std::uint32_t>& of, std::s
 
 // Which seats are taken: at random if most are, else those around the middle of the main straight's stand, with a
 // few left free, so that a small crowd looks like one.
-std::vector<std::uint32_t> choose_seats(const Gathering& gathering, std::size_t count) {
-    const StadiumPlan& plan = gathering.plan;
+std::vector<std::uint32_t> choose_seats(const Gathering& gathering, const StadiumPlan& plan, std::size_t count) {
     constexpr float dense = 0.92f;  // of the seats of a small crowd's part of the stand are taken
     std::vector<std::uint32_t> seats(plan.seats.size());
     std::iota(seats.begin(), seats.end(), 0u);
@@ -190,31 +98,31 @@ std::vector<std::uint32_t> choose_seats(const Gathering& gathering, std::size_t 
     return smallest(seats, count, [&](std::uint32_t seat) { return gathering.bits(salt_seat, seat); });
 }
 
-// Who sits rests on the seat whatever their size: their feet may be some centimetres in or above the floor. Who
-// can't sit stands in front of it.
-void take_seat(Gathering& gathering, std::uint32_t which) {
+// Who can't sit stands in front of the seat.
+void take_seat(Gathering& gathering, const StadiumPlan& plan, std::uint32_t which) {
     constexpr float yaw_jitter = 0.12f;  // [rad]
-    const Seat& seat = gathering.plan.seats[which];
+    const Seat& seat = plan.seats[which];
     const std::uint64_t own = gathering.bits(salt_seat, which);
     const std::uint8_t character = gathering.draw_character(hash(own, salt_looks));
     const float height = draw_height(hash(own, salt_height));
     glm::vec3 position = seat.position;
-    if (gathering.cast[character].sits) {
-        position.y += seat_height * (1.0f - height / gathering.poses[character].rest_height);
-    } else if (gathering.plan.room.seats) {
+    position.y += gathering.seat_lift(character, height);
+    if (plan.room.seats && !gathering.audience.cast[character].sits)
         position += (hips_depth - stander_depth) * glm::vec3(std::sin(seat.yaw), 0, std::cos(seat.yaw));
-    }
-    gathering.add(position, seat.yaw + yaw_jitter * draw_triangle(hash(own, salt_yaw)), height, character,
-                  Role::spectator, lap_fraction(gathering.plan.oval, position),
-                  fans_at(gathering.plan.oval, {seat.position.x, seat.position.z}));
+    gathering.add({.position = position,
+                   .yaw = seat.yaw + yaw_jitter * draw_triangle(hash(own, salt_yaw)),
+                   .height = height,
+                   .character = character,
+                   .role = Role::spectator,
+                   .around = lap_fraction(plan.oval, position),
+                   .fans = fans_at(plan.oval, {seat.position.x, seat.position.z})});
 }
 
 // Blocks are a section wide and up to `band_rows` rows deep: 150 to 400 people.
-void add_spectators(Gathering& gathering, std::size_t count) {
+void add_spectators(Gathering& gathering, const StadiumPlan& plan, std::size_t count) {
     constexpr std::uint32_t band_rows = 12;
-    const StadiumPlan& plan = gathering.plan;
     const std::size_t bands = (plan.rows.size() + band_rows - 1) / band_rows;
-    const std::vector<std::uint32_t> chosen = choose_seats(gathering, count);
+    const std::vector<std::uint32_t> chosen = choose_seats(gathering, plan, count);
     // Counting sort by block; within one, seats keep their order only if they come in it.
     std::vector<std::uint32_t> first(plan.spokes.size() * bands + 1, 0);
     const auto block_of = [&](std::uint32_t seat) {
@@ -228,7 +136,7 @@ void add_spectators(Gathering& gathering, std::size_t count) {
         std::sort(sorted.begin() + first[block], sorted.begin() + first[block + 1]);
         gathering.open_block();
         for (std::uint32_t i = first[block]; i < first[block + 1]; ++i) {
-            take_seat(gathering, sorted[i]);
+            take_seat(gathering, plan, sorted[i]);
         }
         gathering.close_block();
     }
@@ -281,9 +189,8 @@ struct StandingPlace {
 
 // Calls `visit` for each taken place of a cell.
 template <typename Visit>
-void for_each_place(const Gathering& gathering, Ground ground, Cell cell, Visit visit) {
+void for_each_place(const Gathering& gathering, const StadiumPlan& plan, Ground ground, Cell cell, Visit visit) {
     constexpr float share_swing = 0.2f;  // clusters take up to so much more or less of the places than on average
-    const StadiumPlan& plan = gathering.plan;
     const float pitch = standing_pitch(plan.room);
     for (int place = 0; place < cell_places * cell_places; ++place) {
         const int column = cell.x * cell_places + place % cell_places;
@@ -330,11 +237,12 @@ std::size_t bin_of(const Oval& oval, float offset) {
 
 // The cut that leaves at most `wanted` of the cells' places. Two passes over places, each a function of its number,
 // take less than sorting them.
-Cut cut_after(const Gathering& gathering, Ground ground, const std::vector<Cell>& cells, std::int64_t wanted) {
+Cut cut_after(const Gathering& gathering, const StadiumPlan& plan, Ground ground, const std::vector<Cell>& cells,
+              std::int64_t wanted) {
     std::vector<std::int64_t> bins;
     for (const Cell& cell : cells) {
-        for_each_place(gathering, ground, cell, [&](const StandingPlace& place) {
-            const std::size_t bin = bin_of(gathering.plan.oval, place.offset);
+        for_each_place(gathering, plan, ground, cell, [&](const StandingPlace& place) {
+            const std::size_t bin = bin_of(plan.oval, place.offset);
             if (bin >= bins.size()) bins.resize(bin + 1, 0);
             ++bins[bin];
         });
@@ -344,53 +252,45 @@ Cut cut_after(const Gathering& gathering, Ground ground, const std::vector<Cell>
     return cut;
 }
 
-void stand(Gathering& gathering, const StandingPlace& place) {
+void stand(Gathering& gathering, const Oval& oval, const StandingPlace& place) {
     constexpr float yaw_jitter = 0.6f;  // [rad]
-    constexpr Fans mixed_fans{0.3f, 0.1f};
     const float to_center = std::atan2(-place.xz.x, -place.xz.y);
     const glm::vec3 feet(place.xz.x, 0, place.xz.y);
-    gathering.add(feet, to_center + yaw_jitter * draw_triangle(hash(place.bits, salt_yaw)),
-                  draw_height(hash(place.bits, salt_height)), gathering.draw_character(hash(place.bits, salt_looks)),
-                  Role::standing, lap_fraction(gathering.plan.oval, feet), mixed_fans);
+    gathering.add({.position = feet,
+                   .yaw = to_center + yaw_jitter * draw_triangle(hash(place.bits, salt_yaw)),
+                   .height = draw_height(hash(place.bits, salt_height)),
+                   .character = gathering.draw_character(hash(place.bits, salt_looks)),
+                   .role = Role::standing,
+                   .around = lap_fraction(oval, feet),
+                   .fans = {0.3f, 0.1f}});
 }
 
 // Puts up to `wanted` people on the innermost places between two parallels; returns how many found one.
-std::int64_t fill_ground(Gathering& gathering, Ground ground, float inner, float outer, std::int64_t wanted) {
+std::int64_t fill_ground(Gathering& gathering, const StadiumPlan& plan, Ground ground, float inner, float outer,
+                         std::int64_t wanted) {
     if (wanted == 0) return 0;
-    const Oval& oval = gathering.plan.oval;
-    const std::vector<Cell> cells = cells_between(gathering.plan, inner, outer);
-    Cut cut = cut_after(gathering, ground, cells, wanted);
+    const Oval& oval = plan.oval;
+    const std::vector<Cell> cells = cells_between(plan, inner, outer);
+    Cut cut = cut_after(gathering, plan, ground, cells, wanted);
     const std::size_t before = gathering.crowd.size();
     for (const Cell& cell : cells) {
         gathering.open_block();
-        for_each_place(gathering, ground, cell, [&](const StandingPlace& place) {
+        for_each_place(gathering, plan, ground, cell, [&](const StandingPlace& place) {
             const std::size_t bin = bin_of(oval, place.offset);
-            if (bin < cut.bin || (bin == cut.bin && cut.in_bin-- > 0)) stand(gathering, place);
+            if (bin < cut.bin || (bin == cut.bin && cut.in_bin-- > 0)) stand(gathering, oval, place);
         });
         gathering.close_block();
     }
     return static_cast<std::int64_t>(gathering.crowd.size() - before);
 }
 
-void add_standing(Gathering& gathering, std::int64_t left) {
-    const StadiumPlan& plan = gathering.plan;
-    left -= fill_ground(gathering, Ground::infield, -plan.oval.radius, -infield_margin, left);
+void add_standing(Gathering& gathering, const StadiumPlan& plan, std::int64_t left) {
+    left -= fill_ground(gathering, plan, Ground::infield, -plan.oval.radius, -infield_margin, left);
     if (left == 0) return;
     // Some more than the plan's estimate, which knows densities only on average.
     constexpr float spare = 30.0f;  // [m]
-    left -= fill_ground(gathering, Ground::plaza, plan.outer_offset, plan.crowd_offset + spare, left);
+    left -= fill_ground(gathering, plan, Ground::plaza, plan.outer_offset, plan.crowd_offset + spare, left);
     assert(left == 0);
-}
-
-void reserve(Crowd& crowd, std::size_t people) {
-    crowd.position.reserve(people);
-    crowd.yaw.reserve(people);
-    crowd.height.reserve(people);
-    crowd.character.reserve(people);
-    crowd.role.reserve(people);
-    crowd.around.reserve(people);
-    crowd.hash.reserve(people);
-    crowd.palette.reserve(people);
 }
 
 }  // namespace
@@ -403,18 +303,13 @@ Fans fans_at(const Oval& oval, glm::vec2 xz) {
     return elsewhere;
 }
 
-Crowd populate(const StadiumPlan& plan, std::int64_t people, std::span<const CastMember> cast,
-               std::span<const motion::PoseTable> poses, std::uint64_t seed) {
-    assert(people >= 1 && people <= 10'000'000);
-    assert(!cast.empty() && cast.size() <= 256 && cast.size() == poses.size());
-    Gathering gathering{plan, cast, poses, seed, {}};
-    gathering.crowd.path = std::make_shared<Oval>(plan.oval);
-    reserve(gathering.crowd, static_cast<std::size_t>(people));
-    const std::int64_t athletes = athlete_count(people);
-    const std::int64_t seated = std::min(people - athletes, static_cast<std::int64_t>(plan.seats.size()));
-    add_athletes(gathering, static_cast<std::uint32_t>(athletes));
-    add_spectators(gathering, static_cast<std::size_t>(seated));
-    add_standing(gathering, people - athletes - seated);
+Crowd populate(const StadiumPlan& plan, const Audience& audience) {
+    Gathering gathering(audience, std::make_shared<Oval>(plan.oval));
+    const std::int64_t athletes = athlete_count(audience.people);
+    const std::int64_t seated = std::min(audience.people - athletes, static_cast<std::int64_t>(plan.seats.size()));
+    add_athletes(gathering, plan.oval, static_cast<std::uint32_t>(athletes));
+    add_spectators(gathering, plan, static_cast<std::size_t>(seated));
+    add_standing(gathering, plan, audience.people - athletes - seated);
     return std::move(gathering.crowd);
 }
 

@@ -31,7 +31,7 @@ struct SmallScene {
         poses.push_back(motion::bake_poses(person, casting.clips, points.surface, std::size_t{1} << 26));
         cast.push_back(casting.member);
         plan = scene::plan_stadium(people);
-        crowd = scene::populate(plan, people, cast, poses, 1);
+        crowd = scene::populate(plan, {people, cast, poses, 1});
     }
 
     std::vector<figures::Figure> figures() const { return {{&person.mesh, &poses[0], &points}}; }

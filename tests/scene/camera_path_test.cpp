@@ -251,7 +251,7 @@ TEST(Presets, KeepClearOfPeople) {
     const tests::FakeCast cast = tests::sitters();
     for (const std::int64_t people : sizes) {
         const StadiumPlan plan = scene::plan_stadium(people);
-        const Crowd crowd = scene::populate(plan, people, cast.members, cast.poses, 1);
+        const Crowd crowd = scene::populate(plan, {people, cast.members, cast.poses, 1});
         for (const CameraPose& pose : all_poses(plan)) {
             const double offset = plan.oval.offset_of({pose.position.x, pose.position.z});
             if (offset > -1 && offset < track_width + 1) {
@@ -293,7 +293,7 @@ TEST(Presets, RemoteHasEverybodyInView) {
     const tests::FakeCast cast = tests::sitters();
     for (const std::int64_t people : sizes) {
         const StadiumPlan plan = scene::plan_stadium(people);
-        const Crowd crowd = scene::populate(plan, people, cast.members, cast.poses, 1);
+        const Crowd crowd = scene::populate(plan, {people, cast.members, cast.poses, 1});
         const CameraPose pose = scene::preset_path("remote", plan).at(0);
         EXPECT_EQ(share_in_view(pose, crowd, cast.members[0]), 1.0) << people << " people";
         EXPECT_GT(pose.position.y, plan.rim_height);
@@ -304,7 +304,7 @@ TEST(Presets, StillHasMostOfAFullStadiumInView) {
     const tests::FakeCast cast = tests::sitters();
     for (const std::int64_t people : {std::int64_t{8000}, std::int64_t{20000}, std::int64_t{60000}}) {
         const StadiumPlan plan = scene::plan_stadium(people);
-        const Crowd crowd = scene::populate(plan, people, cast.members, cast.poses, 1);
+        const Crowd crowd = scene::populate(plan, {people, cast.members, cast.poses, 1});
         EXPECT_GT(share_in_view(scene::preset_path("still", plan).at(0), crowd, cast.members[0]), 0.6);
     }
 }
@@ -386,7 +386,7 @@ TEST(Presets, CloseAndMediumLookAtSpectators) {
     const tests::FakeCast cast = tests::sitters();
     for (const std::int64_t people : {std::int64_t{100}, std::int64_t{20000}, std::int64_t{200000}}) {
         const StadiumPlan plan = scene::plan_stadium(people);
-        const Crowd crowd = scene::populate(plan, people, cast.members, cast.poses, 1);
+        const Crowd crowd = scene::populate(plan, {people, cast.members, cast.poses, 1});
         const CameraPose close = scene::preset_path("close", plan).at(0),
                          medium = scene::preset_path("medium", plan).at(0);
         EXPECT_GT(spectators_in_view(close, crowd, 15), 20) << people << " people";
@@ -418,7 +418,7 @@ TEST(Presets, CloseAndMediumAreAsNearAsTheyShould) {
     const tests::FakeCast cast = tests::sitters();
     for (const std::int64_t people : {std::int64_t{100}, std::int64_t{20000}, std::int64_t{200000}}) {
         const StadiumPlan plan = scene::plan_stadium(people);
-        const Crowd crowd = scene::populate(plan, people, cast.members, cast.poses, 1);
+        const Crowd crowd = scene::populate(plan, {people, cast.members, cast.poses, 1});
         const double close = nearest_spectator(scene::preset_path("close", plan).at(0), crowd);
         EXPECT_GT(close, 1.0);
         EXPECT_LT(close, 6.0);
@@ -432,7 +432,7 @@ TEST(Presets, RoamGoesCloseMediumAndRemote) {
     const tests::FakeCast cast = tests::sitters();
     for (const std::int64_t people : {std::int64_t{20000}, std::int64_t{200000}}) {
         const StadiumPlan plan = scene::plan_stadium(people);
-        const Crowd crowd = scene::populate(plan, people, cast.members, cast.poses, 1);
+        const Crowd crowd = scene::populate(plan, {people, cast.members, cast.poses, 1});
         const CameraPath roam = scene::preset_path("roam", plan);
         int close = 0, medium = 0;
         for (int second = 0; second < 60; ++second) {

@@ -183,7 +183,7 @@ TEST(Room, GiantsDoNotBreakTheStadium) {
     const scene::Room room = scene::room_for(cast.members, cast.poses);
     EXPECT_LE(room.width, 3);
     EXPECT_LE(room.depth, 3);
-    EXPECT_EQ(scene::populate(scene::plan_stadium(3000, room), 3000, cast.members, cast.poses, 1).size(), 3000u);
+    EXPECT_EQ(scene::populate(scene::plan_stadium(3000, room), {3000, cast.members, cast.poses, 1}).size(), 3000u);
 }
 
 TEST(Crowd, StandsOnTheGroundWhateverItsModelsOrigin) {
@@ -191,10 +191,10 @@ TEST(Crowd, StandsOnTheGroundWhateverItsModelsOrigin) {
     tests::add_stander(cast);
     cast.poses[0].floor = -0.7f;  // the origin is in the model's middle
     const scene::StadiumPlan plan = scene::plan_stadium(2000);
-    const scene::Crowd crowd = scene::populate(plan, 2000, cast.members, cast.poses, 1);
+    const scene::Crowd crowd = scene::populate(plan, {2000, cast.members, cast.poses, 1});
     const scene::Crowd level = [&] {
         cast.poses[0].floor = 0;
-        return scene::populate(plan, 2000, cast.members, cast.poses, 1);
+        return scene::populate(plan, {2000, cast.members, cast.poses, 1});
     }();
     for (std::size_t person = 0; person < crowd.size(); ++person) {
         const float lowest = scene::place(crowd, person, cast.members[0], 77).position.y +

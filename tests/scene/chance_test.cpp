@@ -66,7 +66,7 @@ struct Stands {
     Crowd crowd;
     std::map<std::pair<float, float>, Seat> seats = seats_by_place(plan);
     explicit Stands(std::uint64_t seed, std::int64_t people = 20000)
-        : crowd(scene::populate(plan, people, cast.members, cast.poses, seed)) {}
+        : crowd(scene::populate(plan, {people, cast.members, cast.poses, seed})) {}
 
     const Seat& seat(std::size_t i) const { return seats.at({crowd.position[i].x, crowd.position[i].z}); }
     double yaw_from_seat(std::size_t i) const { return turn(seat(i).yaw, crowd.yaw[i]); }
@@ -98,7 +98,7 @@ struct Grounds {
     Crowd crowd;
     std::vector<std::size_t> people;  // who stand
     explicit Grounds(std::int64_t count = 200'000, std::uint64_t seed = 1)
-        : crowd(scene::populate(plan, count, cast.members, cast.poses, seed)) {
+        : crowd(scene::populate(plan, {count, cast.members, cast.poses, seed})) {
         for (std::size_t i = 0; i < crowd.size(); ++i)
             if (crowd.role[i] == Role::standing) people.push_back(i);
     }
@@ -410,7 +410,7 @@ TEST(Standing, ThoseWhoComeFirstTakeTheInnermostPlaces) {
     const FakeCast cast = tests::sitters();
     const auto standing = [&](std::int64_t people) {
         std::map<std::pair<float, float>, float> offsets;
-        const Crowd crowd = scene::populate(plan, people, cast.members, cast.poses, 1);
+        const Crowd crowd = scene::populate(plan, {people, cast.members, cast.poses, 1});
         for (std::size_t i = 0; i < crowd.size(); ++i) {
             const glm::vec3 at = crowd.position[i];
             if (crowd.role[i] == Role::standing) offsets[{at.x, at.z}] = plan.oval.offset_of({at.x, at.z});
@@ -440,7 +440,7 @@ TEST(Standing, ReachesAboutAsFarAsThePlanSays) {
     const FakeCast cast = tests::sitters();
     for (const std::int64_t people : {std::int64_t{120'000}, std::int64_t{400'000}, std::int64_t{1'000'000}}) {
         const StadiumPlan plan = scene::plan_stadium(people);
-        const Crowd crowd = scene::populate(plan, people, cast.members, cast.poses, 1);
+        const Crowd crowd = scene::populate(plan, {people, cast.members, cast.poses, 1});
         float outermost = -100;
         for (std::size_t i = 0; i < crowd.size(); ++i) {
             if (crowd.role[i] != Role::standing) continue;
@@ -457,7 +457,7 @@ TEST(Standing, WideCharactersStandFurtherApart) {
     tests::add_stander(cast);
     cast.poses[0].clip_boxes[0] = {{-0.7f, 0, -1.0f}, {0.7f, 1.75f, 1.0f}};
     const scene::Room room = scene::room_for(cast.members, cast.poses);
-    const Crowd crowd = scene::populate(scene::plan_stadium(60'000, room), 60'000, cast.members, cast.poses, 1);
+    const Crowd crowd = scene::populate(scene::plan_stadium(60'000, room), {60'000, cast.members, cast.poses, 1});
     const float apart = (room.width + room.depth) / 2;
     std::set<std::pair<int, int>> taken;
     for (std::size_t i = 0; i < crowd.size(); ++i) {

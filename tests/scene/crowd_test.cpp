@@ -192,7 +192,7 @@ TEST(Populate, SpectatorsTakeSeatsAndRestOnThemWhateverTheirSize) {
     constexpr std::size_t tried = 2000;                      // each is compared with every seat
     const FakeCast cast = tests::sitters_and_standers();
     const scene::StadiumPlan plan = scene::plan_stadium(20000);
-    const Crowd crowd = scene::populate(plan, 20000, cast.members, cast.poses, 5);
+    const Crowd crowd = scene::populate(plan, {20000, cast.members, cast.poses, 5});
     for (std::size_t i = 0; i < tried; ++i) {
         if (crowd.role[i] != Role::spectator) continue;
         const bool sits = cast.members[crowd.character[i]].sits;

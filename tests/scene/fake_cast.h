@@ -70,7 +70,7 @@ inline FakeCast sitters_and_standers() {
 }
 
 inline scene::Crowd populate(const FakeCast& cast, std::int64_t people, std::uint64_t seed = 1) {
-    return scene::populate(scene::plan_stadium(people), people, cast.members, cast.poses, seed);
+    return scene::populate(scene::plan_stadium(people), {people, cast.members, cast.poses, seed});
 }
 
 }  // namespace tests

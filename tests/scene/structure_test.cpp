@@ -707,7 +707,7 @@ TEST(People, AreNeverInsideTheStructure) {
     for (const std::int64_t people : {std::int64_t{45'000}, std::int64_t{140'000}}) {
         const Stadium& of = stadium(people);
         const Obstacles obstacles(of);
-        const scene::Crowd crowd = scene::populate(of.plan, people, cast.members, cast.poses, 1);
+        const scene::Crowd crowd = scene::populate(of.plan, {people, cast.members, cast.poses, 1});
         for (std::size_t i = 0; i < crowd.size(); ++i) {
             const glm::vec3 at = scene::place(crowd, i, cast.members[crowd.character[i]], 0).position;
             const bool watches = crowd.role[i] == scene::Role::spectator;

@@ -1,0 +1,20 @@
+// Whom a place is made for.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "motion/pose_table.h"
+#include "scene/crowd.h"
+
+namespace scene {
+
+struct Audience {
+    std::int64_t people = 1;  // in [1, 10'000'000]
+    // Who they are: 1 to 256 characters, and the poses of each. Must outlive the making of the place.
+    std::span<const CastMember> cast;
+    std::span<const motion::PoseTable> poses;
+    std::uint64_t seed = 0;  // of all that chance decides
+};
+
+}  // namespace scene
