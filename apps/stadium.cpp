@@ -19,7 +19,7 @@
 #include "render/gl/timer.h"
 #include "render/gl/window.h"
 #include "render/select.h"
-#include "scene/camera_path.h"
+#include "scene/cameras.h"
 #include "sfsm/controller.h"
 #include "sfsm/detail.h"
 #include "sfsm/number_text.h"
@@ -30,7 +30,6 @@ namespace apps {
 namespace {
 
 constexpr std::int64_t headless_frames = 300;
-constexpr const char* presets[] = {"still", "close", "medium", "remote", "roam"};  // keys 1 to 5
 
 // Where the pictures go: a window, or nowhere. Its context is current.
 struct Surface {
@@ -75,15 +74,16 @@ public:
           surface_(options),
           device_(render::gl::read_device()),
           stage_(build_stage(options.characters, options.people, options.seed, PointCache(options.cache))),
-          path_(path_from_file_ ? *path_from_file_ : scene::preset_path(options.camera, stage_->plan)),
-          renderer_(stage_->structure, stage_->plan, stage_->figures(), options.width, options.height),
-          selector_(stage_->crowd, stage_->cast, stage_->figures()),
+          path_(path_from_file_ ? *path_from_file_ : stage_->place.cameras.named(options.camera)),
+          renderer_(stage_->place.structure, stage_->place.ground, stage_->place.light, stage_->figures(),
+                    options.width, options.height),
+          selector_(stage_->place.crowd, stage_->cast, stage_->figures()),
           timer_(device_),
           clock_(options.fixed_step || surface_.headless),
           width_(options.width),
           height_(options.height) {
         warm_up();
-        stage_->crowd.filled_tick = std::llround(options.pour_in * motion::ticks_per_second);
+        stage_->place.crowd.filled_tick = std::llround(options.pour_in * motion::ticks_per_second);
     }
 
     void run(const StadiumOutputs& outputs) {
@@ -214,7 +214,7 @@ private:
             default:
                 flight_.reset();
                 was_steered_ = true;
-                path_ = scene::preset_path(presets[static_cast<int>(command)], stage_->plan);
+                path_ = stage_->place.cameras.named(scene::preset_names[static_cast<std::size_t>(command)]);
         }
     }
 

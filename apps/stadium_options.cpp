@@ -6,7 +6,7 @@
 
 #include "apps/places.h"
 #include "apps/program.h"
-#include "scene/camera_path.h"
+#include "scene/cameras.h"
 
 namespace apps {
 

@@ -10,6 +10,7 @@
 #include "pointsample/sample.h"
 #include "scene/cast.h"
 #include "scene/person.h"
+#include "scene/places/stadium.h"
 
 namespace apps {
 
@@ -67,10 +68,7 @@ std::unique_ptr<Stage> build_stage(const std::vector<std::filesystem::path>& cha
         add_character(*stage, model::load_mesh(file), seed, pose_byte_budget / character_files.size(), cache);
     throw_if_interrupted();
     ProgressBar bar("Seating the crowd");
-    stage->plan = scene::plan_stadium(people, scene::room_for(stage->cast, stage->poses));
-    stage->structure = scene::build_structure(stage->plan);
-    bar(0.5);
-    stage->crowd = scene::populate(stage->plan, {people, stage->cast, stage->poses, seed});
+    stage->place = scene::make_stadium({people, stage->cast, stage->poses, seed});
     return stage;
 }
 

@@ -1,4 +1,4 @@
-// Everything a run shows, ready to be drawn: the stadium, its cast in all their poses, and the crowd.
+// Everything a run shows, ready to be drawn: a place with its crowd, and the cast in all their poses.
 #pragma once
 
 #include <cstdint>
@@ -12,20 +12,17 @@
 #include "model/mesh.h"
 #include "motion/pose_table.h"
 #include "pointsample/point_model.h"
-#include "scene/crowd.h"
-#include "scene/places/stadium.h"
+#include "scene/place.h"
 
 namespace apps {
 
 struct Stage {
-    scene::StadiumPlan plan;
-    scene::StaticMesh structure;
+    scene::Place place;
     // One element a character.
     std::vector<model::Mesh> meshes;
     std::vector<pointsample::PointModel> points;
     std::vector<scene::CastMember> cast;
     std::vector<motion::PoseTable> poses;
-    scene::Crowd crowd;
 
     std::vector<figures::Figure> figures() const;  // point into this
 };

@@ -1,6 +1,7 @@
 // A frame as every drawer takes it: from where, whom, and how each is drawn. Plain data, no device.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 

@@ -1,12 +1,9 @@
-// Where the camera is at a time: the presets, and paths from files.
+// Where the camera is at a time.
 #pragma once
 
 #include <filesystem>
 #include <glm/glm.hpp>
-#include <string>
 #include <vector>
-
-#include "scene/places/stadium.h"
 
 namespace scene {
 
@@ -29,15 +26,6 @@ struct CameraPath {
     bool closed = false;          // repeats for ever: the last key equals the first
     CameraPose at(double time) const;
 };
-
-// "still", "close", "medium", "remote", "roam" for this stadium, or throws std::runtime_error naming the presets.
-//   still   from a seat high in a corner, most of the stadium in view
-//   close   a few metres from people in the stands
-//   medium  from the infield towards a stand
-//   remote  from above the rim, everybody in view
-//   roam    a 60 s closed tour that goes close, medium and remote
-CameraPath preset_path(const std::string& name, const StadiumPlan& plan);
-bool is_preset(const std::string& name);
 
 // {"closed": bool = false, "keys": [{"time_s": t, "position": [x,y,z], "target": [x,y,z], "fov_deg": 50,
 //                                     "cut": bool = false}, ...]}

@@ -49,8 +49,8 @@ struct CrowdBlock {
 struct Crowd {
     // One element a person, blocks contiguous.
     // [m] Where the model's origin goes, so that who stands stands on the ground and who sits rests on the seat,
-    // whatever their size. For walkers and runners x = offset of their parallel of the path [m], y =
-    // height, z = arc at tick 0 [m].
+    // whatever their size. For walkers and runners x = offset of their parallel of the path [m], y = height, z = arc at
+    // tick 0 [m].
     std::vector<glm::vec3> position;
     std::vector<float> yaw;     // [rad]
     std::vector<float> height;  // [m] standing, 1.5-2.0
@@ -82,7 +82,7 @@ Placement place(const Crowd& crowd, std::size_t person, const CastMember& member
 // Whether `person` has come in by `tick`.
 bool has_arrived(const Crowd& crowd, std::size_t person, std::int64_t tick);
 
-// What `person` does at `tick` of the scene: phase, choice between acts (cheering travels around the stadium as a
+// What `person` does at `tick` of the scene: phase, choice between acts (cheering travels around the place as a
 // wave now and then), all from hash and tick.
 Action act(const Crowd& crowd, std::size_t person, const CastMember& member, const motion::PoseTable& poses,
            std::int64_t tick);

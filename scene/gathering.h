@@ -24,13 +24,13 @@ enum Salt : std::uint64_t {
 
 // Where somebody is, and as whom.
 struct Spot {
-    glm::vec3 position;   // [m] of the ground or floor that they stand on; for walkers and runners as Crowd::position
-    float yaw = 0;        // [rad]
-    float height = 1.7f;  // [m]
+    glm::vec3 position{0.0f};  // [m] of the floor that they stand on; of walkers and runners as Crowd::position has it
+    float yaw = 0;             // [rad]
+    float height = 1.7f;       // [m]
     std::uint8_t character = 0;  // into Audience::cast
     Role role = Role::standing;
-    float around = 0;  // Crowd::around
-    Fans fans;         // among whom they are
+    float around = 0;  // as Crowd::around has it
+    Fans fans{0, 0};   // among whom they are
 };
 
 struct Gathering {

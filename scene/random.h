@@ -23,6 +23,11 @@ constexpr float unit(std::uint64_t bits) {
     return static_cast<float>(bits >> 40) * 0x1p-24f;
 }
 
+// In [-1, 1), more often near 0.
+constexpr float triangle(std::uint64_t bits) {
+    return unit(bits) + unit(mix(bits)) - 1.0f;
+}
+
 // In [0, n), n > 0.
 constexpr std::uint32_t below(std::uint64_t bits, std::uint32_t n) {
     return static_cast<std::uint32_t>(((bits >> 32) * n) >> 32);

@@ -49,10 +49,13 @@ vec4 sun_direction;              // towards the sun, unit
 vec4 sun_color;                  // linear
 vec4 sky_light;                  // linear, from above
 vec4 ground_light;               // linear, from below
+vec4 sky_haze;                   // sRGB, at the horizon
+vec4 sky_zenith;                 // sRGB
+vec4 sky_glare;                  // sRGB, of the sun and around it
 vec4 view_right;                 // world; length = tan of half the horizontal field of view
 vec4 view_up;                    // world; length = tan of half the vertical one
 vec4 view_forward;               // world; unit
-vec4 oval;                       // half straight, radius of the inner line [m], stands' inner offset [m], unused
+vec4 ground_parameters[2];       // as the file of shaders/grounds/ says that is in use
 vec4 splat;                      // x: splat size [px]; y: pixels that a metre covers at a depth of one metre
 BLOCK_END(Frame)
 

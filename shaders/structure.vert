@@ -1,4 +1,4 @@
-// The stadium itself: world positions, lit per vertex; the ground is painted per fragment.
+// What stands in a place: world positions, lit per vertex; the ground is painted per fragment.
 #include "light.glsl"
 
 layout(location = attribute_static_position) in vec3 world_position;

@@ -1,5 +1,6 @@
 #include "render/gl/backdrop.h"
 
+#include <cassert>
 #include <cstddef>
 
 #include "render/gl/program.h"
@@ -9,12 +10,13 @@
 namespace render::gl {
 
 // Painted triangles and ground have programs of their own, so each sector's indices are parted by surface.
-Backdrop::Backdrop(const scene::StaticMesh& structure)
+Backdrop::Backdrop(const scene::StaticMesh& structure, const scene::Ground& ground)
     : structure_program_(build_program("structure.vert", "structure.frag")),
-      ground_program_(build_program("structure.vert", "structure.frag", {"GROUND"})),
       sky_program_(build_program("sky.vert", "sky.frag")),
       array_(VertexArray::create()),
       empty_array_(VertexArray::create()) {
+    if (!ground.shader.empty())
+        ground_program_ = build_program("structure.vert", "grounds/" + ground.shader, {"GROUND"});
     std::vector<std::uint32_t> indices;
     indices.reserve(structure.indices.size());
     for (const scene::Surface surface : {scene::Surface::painted, scene::Surface::ground}) {
@@ -29,6 +31,7 @@ Backdrop::Backdrop(const scene::StaticMesh& structure)
             if (count > 0) ranges.push_back({sector.box, first, count});
         }
     }
+    assert(ground_.empty() || !ground.shader.empty());
     vertices_ = upload<scene::StaticVertex>(structure.vertices);
     indices_ = upload<std::uint32_t>(indices);
     constexpr GLuint binding = 0;

@@ -5,13 +5,14 @@
 
 #include "render/gl/objects.h"
 #include "render/view.h"
-#include "scene/places/stadium.h"
+#include "scene/ground.h"
+#include "scene/static_mesh.h"
 
 namespace render::gl {
 
 class Backdrop {
 public:
-    explicit Backdrop(const scene::StaticMesh& structure);
+    Backdrop(const scene::StaticMesh& structure, const scene::Ground& ground);
 
     // After the people, whose depths hide most of it: the costliest pixels (ground, sky) come last.
     void draw(const View& view) const;

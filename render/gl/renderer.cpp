@@ -13,15 +13,10 @@ namespace render::gl {
 
 namespace {
 
-static_assert(offsetof(FrameBlock, camera_position) == 64 && offsetof(FrameBlock, splat) == 208 &&
-              sizeof(FrameBlock) == 224);
+static_assert(offsetof(FrameBlock, camera_position) == 64 && offsetof(FrameBlock, splat) == 272 &&
+              sizeof(FrameBlock) == 288);
+static_assert(sizeof(FrameBlock::ground_parameters) == sizeof(scene::Ground::parameters));
 static_assert(offsetof(FigureBlock, box_size) == 16 && sizeof(FigureBlock) == 32);
-
-// A clear afternoon; linear light, chosen so that a white shirt in the sun stays just below white.
-const glm::vec3 sun_direction = glm::normalize(glm::vec3(0.45f, 0.72f, 0.38f));
-constexpr glm::vec3 sun_color{0.72f, 0.66f, 0.55f};
-constexpr glm::vec3 sky_light{0.32f, 0.37f, 0.45f};
-constexpr glm::vec3 ground_light{0.14f, 0.14f, 0.12f};
 
 // Set-up must have left no error behind; memory is the one that a user can do something about.
 void check_for_errors() {
@@ -48,14 +43,15 @@ Buffer make_figure_block(const figures::Figure& figure) {
 
 }  // namespace
 
-Renderer::Renderer(const scene::StaticMesh& structure, const scene::StadiumPlan& plan,
+Renderer::Renderer(const scene::StaticMesh& structure, const scene::Ground& ground, const scene::Light& light,
                    std::span<const figures::Figure> figures, int width, int height)
-    : backdrop_(structure),
+    : backdrop_(structure, ground),
       drawers_(make_figure_drawers()),
       frame_block_(Buffer::create()),
       instances_(Buffer::create()),
       commands_(Buffer::create()),
-      oval_(plan.oval.half_straight, plan.oval.radius, plan.stand_offset, 0.0f) {
+      ground_parameters_(ground.parameters),
+      light_(light) {
     glNamedBufferStorage(frame_block_.name(), sizeof(FrameBlock), nullptr, GL_DYNAMIC_STORAGE_BIT);
     for (const figures::Figure& figure : figures) {
         figure_blocks_.push_back(make_figure_block(figure));
@@ -109,14 +105,17 @@ void Renderer::upload_frame(const View& view, double splat_size) {
     FrameBlock frame;
     frame.clip_from_camera_relative = view.clip_from_camera_relative;
     frame.camera_position = glm::vec4(glm::vec3(view.position), 0.0f);
-    frame.sun_direction = glm::vec4(sun_direction, 0.0f);
-    frame.sun_color = glm::vec4(sun_color, 0.0f);
-    frame.sky_light = glm::vec4(sky_light, 0.0f);
-    frame.ground_light = glm::vec4(ground_light, 0.0f);
+    frame.sun_direction = glm::vec4(light_.to_sun, 0.0f);
+    frame.sun_color = glm::vec4(light_.sun, 0.0f);
+    frame.sky_light = glm::vec4(light_.from_above, 0.0f);
+    frame.ground_light = glm::vec4(light_.from_below, 0.0f);
+    frame.sky_haze = glm::vec4(light_.haze, 0.0f);
+    frame.sky_zenith = glm::vec4(light_.zenith, 0.0f);
+    frame.sky_glare = glm::vec4(light_.glare, 0.0f);
     frame.view_right = glm::vec4(view.right * view.tan_half_x, 0.0f);
     frame.view_up = glm::vec4(view.up * view.tan_half_y, 0.0f);
     frame.view_forward = glm::vec4(view.forward, 0.0f);
-    frame.oval = oval_;
+    std::copy(ground_parameters_.begin(), ground_parameters_.end(), frame.ground_parameters);
     frame.splat = glm::vec4(std::max(1.0f, static_cast<float>(splat_size)), view.pixels_per_metre(1.0f), 0.0f, 0.0f);
     glNamedBufferSubData(frame_block_.name(), 0, sizeof frame, &frame);
     glBindBufferBase(GL_UNIFORM_BUFFER, Frame_binding, frame_block_.name());

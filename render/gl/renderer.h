@@ -1,6 +1,7 @@
 // Frames by OpenGL: uploads a scene once, then draws what was selected.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -12,7 +13,9 @@
 #include "render/gl/figure_drawer.h"
 #include "render/gl/objects.h"
 #include "render/image.h"
-#include "scene/places/stadium.h"
+#include "scene/ground.h"
+#include "scene/light.h"
+#include "scene/static_mesh.h"
 
 namespace render::gl {
 
@@ -20,7 +23,7 @@ class Renderer {
 public:
     // Needs a current OpenGL 4.5 context. `figures` in the order of Crowd::character; what they point at is needed only
     // here. width, height >= 1. Throws std::runtime_error when the driver refuses.
-    Renderer(const scene::StaticMesh& structure, const scene::StadiumPlan& plan,
+    Renderer(const scene::StaticMesh& structure, const scene::Ground& ground, const scene::Light& light,
              std::span<const figures::Figure> figures, int width, int height);
 
     void resize(int width, int height);
@@ -50,7 +53,8 @@ private:
     std::vector<std::unique_ptr<FigureDrawer>> drawers_;  // by representation
     std::vector<Buffer> figure_blocks_;                   // by character
     Buffer frame_block_, instances_, commands_;
-    glm::vec4 oval_{0.0f};
+    std::array<glm::vec4, 2> ground_parameters_;
+    scene::Light light_;
     Renderbuffer color_, depth_;
     Framebuffer target_;
     int width_ = 0, height_ = 0;

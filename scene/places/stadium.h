@@ -1,4 +1,4 @@
-// The stadium: where its seats are, and what it looks like without people.
+// The stadium: its plan, and the place that is made of it.
 #pragma once
 
 #include <cstdint>
@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "scene/audience.h"
+#include "scene/place.h"
 #include "scene/places/oval.h"
 #include "scene/room.h"
-#include "scene/static_mesh.h"
 
 namespace scene {
 
@@ -61,11 +61,24 @@ struct StadiumPlan {
 // `people` >= 1.
 StadiumPlan plan_stadium(std::int64_t people, const Room& room = {});
 
-// Steps, seats, walls, roof, rim, floodlights, and the ground: pitch, track and surroundings out to 2 km.
+// Steps, seats, walls, roof, rim, floodlights, and the ground out to 2 km.
 StaticMesh build_structure(const StadiumPlan& plan);
+
+// Pitch, track and paving.
+Ground paint_ground(const StadiumPlan& plan);
 
 // Seats first (seeded choice of who sits where, athletes on the track), then the pitch and around, out to as far as it
 // takes.
 Crowd populate(const StadiumPlan& plan, const Audience& audience);
+
+//   still   from a seat high in a corner, most of the stadium in view
+//   close   a few metres from people in the stands
+//   medium  from the infield towards a stand
+//   remote  from above the rim, everybody in view
+//   roam    a 60 s closed tour that goes close, medium and remote
+Cameras aim_cameras(const StadiumPlan& plan);
+
+// A stadium that seats its audience, by daylight: all of the above.
+Place make_stadium(const Audience& audience);
 
 }  // namespace scene

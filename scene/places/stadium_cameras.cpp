@@ -1,18 +1,12 @@
-// The presets, derived from a stadium's plan so that they fit it whatever its size.
+// aim_cameras: derived from a stadium's plan so that they fit it whatever its size.
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <stdexcept>
-#include <string_view>
 
-#include "scene/camera_path.h"
 #include "scene/places/stadium_layout.h"
 
 namespace scene {
 
 namespace {
-
-constexpr std::array<std::string_view, 5> preset_names{"still", "close", "medium", "remote", "roam"};
 
 constexpr double degrees(double angle) {
     return angle * std::numbers::pi / 180;
@@ -133,19 +127,8 @@ CameraPath roam(const StadiumPlan& plan) {
 
 }  // namespace
 
-bool is_preset(const std::string& name) {
-    return std::find(preset_names.begin(), preset_names.end(), name) != preset_names.end();
-}
-
-CameraPath preset_path(const std::string& name, const StadiumPlan& plan) {
-    if (name == "still") return {{{0, still(plan)}}};
-    if (name == "close") return {{{0, close(plan)}}};
-    if (name == "medium") return {{{0, medium(plan)}}};
-    if (name == "remote") return {{{0, remote(plan)}}};
-    if (name == "roam") return roam(plan);
-    std::string known;
-    for (const std::string_view preset : preset_names) known += (known.empty() ? "" : ", ") + std::string(preset);
-    throw std::runtime_error("no camera '" + name + "': expected one of " + known);
+Cameras aim_cameras(const StadiumPlan& plan) {
+    return {{{{0, still(plan)}}}, {{{0, close(plan)}}}, {{{0, medium(plan)}}}, {{{0, remote(plan)}}}, roam(plan)};
 }
 
 }  // namespace scene

@@ -7,7 +7,6 @@
 #include <glm/glm.hpp>
 #include <numbers>
 
-#include "scene/looks.h"
 #include "scene/places/stadium.h"
 
 namespace scene {
@@ -48,9 +47,6 @@ inline constexpr float plaza_margin = 2.5f;      // [m] outside the outer wall
 inline float standing_pitch(const Room& room) {
     return std::fmax(0.75f, 0.5f * (room.width + room.depth));
 }
-
-// Whose colours spectators at x, z wear.
-Fans fans_at(const Oval& oval, glm::vec2 xz);
 
 // One in a hundred is an athlete, as long as the track has room to run.
 inline std::int64_t athlete_count(std::int64_t people) {

@@ -38,9 +38,9 @@ void expect_belongs_together(const apps::Stage& stage) {
         EXPECT_EQ(figures[i].points, &stage.points[i]);
         EXPECT_EQ(static_cast<std::size_t>(stage.poses[i].vertex_count), stage.meshes[i].vertex_count());
         EXPECT_EQ(static_cast<std::size_t>(stage.poses[i].point_count), stage.points[i].size());
-        EXPECT_TRUE(std::ranges::count(stage.crowd.character, i) > 0) << "nobody is " << i;
+        EXPECT_TRUE(std::ranges::count(stage.place.crowd.character, i) > 0) << "nobody is " << i;
     }
-    EXPECT_EQ(stage.crowd.size(), static_cast<std::size_t>(people));
+    EXPECT_EQ(stage.place.crowd.size(), static_cast<std::size_t>(people));
 }
 
 TEST(Stage, KnowsEachOfItsCharacters) {
@@ -60,7 +60,7 @@ TEST(Stage, HasTheBuiltInPersonWhereNoFileIsNamed) {
     ASSERT_EQ(stage->meshes.size(), 1u);
     expect_belongs_together(*stage);
     EXPECT_TRUE(stage->cast[0].sits);
-    EXPECT_GT(stage->structure.indices.size(), 0u);
+    EXPECT_GT(stage->place.structure.indices.size(), 0u);
 }
 
 }  // namespace

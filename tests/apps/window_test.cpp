@@ -288,7 +288,7 @@ TEST_F(WindowKeys, EscapeClosesIt) {
 // The renderer's target reaches the window the right way up and, in a window of its size, pixel by pixel.
 TEST_F(WindowKeys, ShowsWhatWasDrawn) {
     const scene::StaticMesh nothing{{{}, {}, {}}, {0, 0, 0}, {}};
-    render::gl::Renderer renderer(nothing, {}, {}, window_->width(), window_->height());
+    render::gl::Renderer renderer(nothing, {}, {}, {}, window_->width(), window_->height());
     // The sun's glow is in the upper left.
     const render::View view = render::make_view({{0, 0, 0}, {0.2, 0.1, 1.0}, 1.2}, window_->width(), window_->height());
     render::Frame nobody;

@@ -65,7 +65,7 @@ protected:
     }
 
     void expect_alike_all_around(const Model& model) {
-        render::gl::Renderer renderer(nothing, {}, std::vector{model.product()}, width, height);
+        render::gl::Renderer renderer(nothing, {}, {}, std::vector{model.product()}, width, height);
         const int last = std::max(0, static_cast<int>(model.clips.size()) - 1);
         for (const Person& person : {sitter(model, 0, 0), sitter(model, last, 17)}) {
             for (const double distance : {0.35, 1.2, 3.0, 12.0, 90.0, 400.0}) {
@@ -81,7 +81,7 @@ protected:
     }
 
     void expect_alike_by_every_number_of_points(const Model& model) {
-        render::gl::Renderer renderer(nothing, {}, std::vector{model.product()}, width, height);
+        render::gl::Renderer renderer(nothing, {}, {}, std::vector{model.product()}, width, height);
         const int last = std::max(0, static_cast<int>(model.clips.size()) - 1);
         for (std::size_t power = 2; power <= model.points.size(); power *= 2) {
             for (const std::size_t points : {power, power + power / 2}) {
@@ -151,8 +151,8 @@ INSTANTIATE_TEST_SUITE_P(Files, RealPortrait,
 TEST_F(Portrait, OfAGroupIsTheReferences) {
     const std::unique_ptr<Model> plain = built_in(), closed = harlequin(false), open = harlequin(true);
     const std::vector<const Model*> models{plain.get(), closed.get(), open.get()};
-    render::gl::Renderer renderer(nothing, {}, std::vector{plain->product(), closed->product(), open->product()}, width,
-                                  height);
+    render::gl::Renderer renderer(nothing, {}, {}, std::vector{plain->product(), closed->product(), open->product()},
+                                  width, height);
     std::vector<Person> group;
     for (int i = 0; i < 18; ++i) {
         Person person = sitter(*models[static_cast<std::size_t>((i / 2 * 5 + i / 9) % 3)], i % 2, 7 * i % 24);
@@ -172,7 +172,7 @@ TEST_F(Portrait, OfAGroupIsTheReferences) {
 // Taller, wider, smaller and larger than before, and of odd sides.
 TEST_F(Portrait, OfAnySizeIsTheReferences) {
     const std::unique_ptr<Model> model = harlequin(true);
-    render::gl::Renderer renderer(nothing, {}, std::vector{model->product()}, width, height);
+    render::gl::Renderer renderer(nothing, {}, {}, std::vector{model->product()}, width, height);
     const Person person = sitter(*model, 0, 5);
     for (const glm::ivec2 size : {glm::ivec2(331, 90), {90, 331}, {37, 31}, {402, 301}, {200, 160}}) {
         size_ = size;
@@ -191,7 +191,7 @@ TEST_F(Portrait, SplatsAreNoWiderThanWhomTheyBelongTo) {
         for (model::MorphTarget& morph : character.mesh.morphs)
             for (glm::vec3& offset : morph.position_offsets) offset *= unit;
         const Model model(std::move(character), {}, 100);
-        render::gl::Renderer renderer(nothing, {}, std::vector{model.product()}, width, height);
+        render::gl::Renderer renderer(nothing, {}, {}, std::vector{model.product()}, width, height);
         for (const std::size_t points : {2u, 6u, 24u, 96u}) {
             for (const double distance : {12.0, 30.0}) {
                 Person person = sitter(model, 0, 0);
@@ -214,7 +214,7 @@ TEST_F(Portrait, OfTooFineTexturesIsTheReferences) {
                                                                     : glm::u8vec4(90, 200, 60, 255));
     }
     const Model model(std::move(character), {0, 1}, 100);
-    render::gl::Renderer renderer(nothing, {}, std::vector{model.product()}, width, height);
+    render::gl::Renderer renderer(nothing, {}, {}, std::vector{model.product()}, width, height);
     const Person person = sitter(model, 0, 0);
     for (const double azimuth : {0.3, 2.5, 4.5})
         expect_alike(renderer, {&model}, {person}, camera(person, azimuth, 0.2, 2), 0, "striped");
@@ -230,7 +230,7 @@ TEST_F(Portrait, OfFineTexturesKeepsTheirStripes) {
             stripes.texels.push_back(i / 5 % 2 == 0 ? glm::u8vec4(250, 80, 90, 255) : glm::u8vec4(90, 200, 60, 255));
     }
     const Model model(std::move(character), {0, 1}, 100);
-    render::gl::Renderer renderer(nothing, {}, std::vector{model.product()}, width, height);
+    render::gl::Renderer renderer(nothing, {}, {}, std::vector{model.product()}, width, height);
     const Person person = sitter(model, 0, 0);
     for (const double azimuth : {0.3, 2.5, 4.5}) {
         scene::CameraPose pose = camera(person, azimuth, 0.2, 2);
@@ -255,7 +255,7 @@ TEST_F(Portrait, OfAnOpenFigureLeavesWallsOneSided) {
     }
     walls.sectors.push_back({{glm::vec3(person.origin) - 3.0f, glm::vec3(person.origin) + 3.0f}, 0, 6});
     structure_ = &walls;
-    render::gl::Renderer renderer(walls, {}, std::vector{model->product()}, width, height);
+    render::gl::Renderer renderer(walls, {}, {}, std::vector{model->product()}, width, height);
     for (int side = 0; side < 6; ++side)
         expect_alike(renderer, {model.get()}, {person}, camera(person, side + 0.2, 0.2, 5), 0, "between walls");
 }

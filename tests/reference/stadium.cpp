@@ -7,7 +7,7 @@ Stadium::Stadium(const tests::SmallScene& scene, int width, int height)
       width_(width),
       height_(height),
       structure_(scene::build_structure(scene.plan)),
-      renderer_(structure_, scene.plan, scene.figures(), width, height),
+      renderer_(structure_, scene::paint_ground(scene.plan), {}, scene.figures(), width, height),
       selector_(scene.crowd, scene.cast, scene.figures()) {
     figures_.emplace_back(scene.person, scene::cast(scene.person).clips, &scene.points);
 }

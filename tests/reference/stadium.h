@@ -22,7 +22,7 @@ public:
 
     Frame shoot(const scene::CameraPose& pose, const sfsm::Decision& decision, std::int64_t tick);
     scene::CameraPose preset(const char* name, double seconds = 0) const {
-        return scene::preset_path(name, scene_.plan).at(seconds);
+        return scene::aim_cameras(scene_.plan).named(name).at(seconds);
     }
 
 private:

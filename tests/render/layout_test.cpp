@@ -38,17 +38,20 @@ TEST_F(Layout, UniformBlocksHaveTheOffsetsOfTheirStructs) {
         {"FrameBlock.sun_color", offsetof(FrameBlock, sun_color)},
         {"FrameBlock.sky_light", offsetof(FrameBlock, sky_light)},
         {"FrameBlock.ground_light", offsetof(FrameBlock, ground_light)},
+        {"FrameBlock.sky_haze", offsetof(FrameBlock, sky_haze)},
+        {"FrameBlock.sky_zenith", offsetof(FrameBlock, sky_zenith)},
+        {"FrameBlock.sky_glare", offsetof(FrameBlock, sky_glare)},
         {"FrameBlock.view_right", offsetof(FrameBlock, view_right)},
         {"FrameBlock.view_up", offsetof(FrameBlock, view_up)},
         {"FrameBlock.view_forward", offsetof(FrameBlock, view_forward)},
-        {"FrameBlock.oval", offsetof(FrameBlock, oval)},
+        {"FrameBlock.ground_parameters[0]", offsetof(FrameBlock, ground_parameters)},
         {"FrameBlock.splat", offsetof(FrameBlock, splat)},
         {"FigureBlock.box_min", offsetof(FigureBlock, box_min)},
         {"FigureBlock.box_size", offsetof(FigureBlock, box_size)},
     };
     const render::gl::Program programs[] = {
         render::gl::build_program("person_points.vert", "person_points.frag"),
-        render::gl::build_program("structure.vert", "structure.frag", {"GROUND"}),
+        render::gl::build_program("structure.vert", "grounds/stadium.glsl", {"GROUND"}),
         render::gl::build_program("sky.vert", "sky.frag"),
     };
     for (const Member& member : members) {

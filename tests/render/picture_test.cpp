@@ -1,11 +1,13 @@
 // What reaches the pixels, held against projections done here.
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <set>
 #include <stdexcept>
 
 #include "render/gl/renderer.h"
 #include "render/gl/texture_array.h"
+#include "scene/static_mesh_builder.h"
 #include "tests/render/gl_test.h"
 #include "tests/render/small_scene.h"
 
@@ -21,7 +23,7 @@ struct Portrait {
     scene::StaticMesh nothing{{{}, {}, {}}, {0, 0, 0}, {}};
     render::gl::Renderer renderer;
 
-    Portrait() : renderer(nothing, scene.plan, scene.figures(), width, height) {}
+    explicit Portrait(const scene::Light& light = {}) : renderer(nothing, {}, light, scene.figures(), width, height) {}
 
     render::View view(double distance) const {
         const scene::Placement at = scene::place(scene.crowd, 0, scene.cast[0], 0);
@@ -193,6 +195,51 @@ TEST_F(Picture, ResizedTargetHasItsNewSize) {
     // A sky, not the cleared black.
     EXPECT_TRUE(
         std::all_of(image.pixels.begin(), image.pixels.begin() + 3 * 64, [](std::uint8_t v) { return v > 20; }));
+}
+
+TEST_F(Picture, IsLitByItsPlace) {
+    scene::Light light;
+    light.sun = light.glare = glm::vec3(0);
+    light.from_above = light.from_below = {0.5f, 0, 0};
+    light.haze = light.zenith = {0.2f, 0.4f, 0.6f};
+    Portrait portrait(light);
+    const render::View view = portrait.view(3.0);
+    const render::Image nobody = portrait.draw_nobody(view), somebody = portrait.draw(view, {});
+    for (std::size_t i = 0; i < nobody.pixels.size(); i += 3) {
+        ASSERT_NEAR(nobody.pixels[i], 51, 1);
+        ASSERT_NEAR(nobody.pixels[i + 1], 102, 1);
+        ASSERT_NEAR(nobody.pixels[i + 2], 153, 1);
+    }
+    const std::set<int> person = differing_pixels(somebody, nobody);
+    EXPECT_GT(person.size(), 1000u);
+    for (const int pixel : person) {
+        ASSERT_EQ(somebody.pixels[static_cast<std::size_t>(3 * pixel + 1)], 0) << "no light but red";
+        ASSERT_EQ(somebody.pixels[static_cast<std::size_t>(3 * pixel + 2)], 0);
+    }
+}
+
+// The stadium's ground from straight above, 30 m from its middle, with parameters that put each of its parts there.
+TEST_F(Picture, OfTheGroundIsWhatItsPlaceSays) {
+    scene::StaticMeshBuilder builder;
+    builder.ground();
+    builder.close_sector();
+    const scene::Light light;
+    const glm::vec3 daylight = light.from_above + light.to_sun.y * light.sun;
+    const std::pair<glm::vec3, glm::vec3> parts[] = {{{0, 24.5f, 30}, {0.32f, 0.075f, 0.045f}},  // track
+                                                     {{0, 19, 30}, {0.10f, 0.17f, 0.20f}},       // apron
+                                                     {{20, 0, 30}, {0.10f, 0.17f, 0.20f}},       // around a point
+                                                     {{0, 5, 10}, {0.26f, 0.25f, 0.235f}}};      // paving
+    for (const auto& [numbers, color] : parts) {
+        render::gl::Renderer renderer(builder.mesh, {"stadium.glsl", {glm::vec4(numbers, 0)}}, light, {}, 8, 8);
+        render::Frame nobody;
+        nobody.view = render::make_view({{30.5, 2, 0.5}, {30.5, 0, 0.501}, 0.1}, 8, 8);
+        renderer.draw(nobody);
+        const render::Image image = renderer.read_image();
+        for (int channel = 0; channel < 3; ++channel)
+            EXPECT_NEAR(image.pixels[static_cast<std::size_t>(3 * 36 + channel)],
+                        255 * std::sqrt(color[channel] * daylight[channel]), 1)
+                << numbers.x << ' ' << numbers.y << ' ' << numbers.z << " channel " << channel;
+    }
 }
 
 // A look has five bits for its layer, and one number says that there is none.

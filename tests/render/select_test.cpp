@@ -24,7 +24,7 @@ const tests::SmallScene& small_scene() {
 }
 
 render::View view_of(const char* preset) {
-    return render::make_view(scene::preset_path(preset, small_scene().plan).at(0.0), 640, 360);
+    return render::make_view(scene::aim_cameras(small_scene().plan).named(preset).at(0.0), 640, 360);
 }
 
 Decision points_of(double splat_size, double motion_distance = 50) {

@@ -168,7 +168,7 @@ TEST(CameraPath, VelocityIsContinuousAcrossKeysAndTheSeam) {
     CameraPath path = square_path();
     EXPECT_LT(largest_jolt(path, 0.5, 16), tolerance);
     for (const std::int64_t people : sizes) {
-        const CameraPath roam = scene::preset_path("roam", scene::plan_stadium(people));
+        const CameraPath roam = scene::aim_cameras(scene::plan_stadium(people)).roam;
         const double size = glm::length(roam.keys.front().pose.position) / 200;  // larger tours fly faster
         EXPECT_LT(largest_jolt(roam, -1, 61), tolerance * std::max(size, 1.0)) << people << " people";
     }
@@ -178,11 +178,11 @@ TEST(Presets, ThoseThatAreNamedExist) {
     const StadiumPlan plan = scene::plan_stadium(1000);
     for (const char* name : {"still", "close", "medium", "remote", "roam"}) {
         EXPECT_TRUE(scene::is_preset(name));
-        EXPECT_FALSE(scene::preset_path(name, plan).keys.empty());
+        EXPECT_FALSE(scene::aim_cameras(plan).named(name).keys.empty());
     }
     EXPECT_FALSE(scene::is_preset("nearby"));
     try {
-        scene::preset_path("nearby", plan);
+        scene::aim_cameras(plan).named("nearby");
         FAIL() << "accepted";
     } catch (const std::runtime_error& error) {
         EXPECT_NE(std::string(error.what()).find("still, close, medium, remote, roam"), std::string::npos);
@@ -190,7 +190,7 @@ TEST(Presets, ThoseThatAreNamedExist) {
 }
 
 TEST(Presets, RoamIsAClosedTourOfAMinute) {
-    const CameraPath roam = scene::preset_path("roam", scene::plan_stadium(20000));
+    const CameraPath roam = scene::aim_cameras(scene::plan_stadium(20000)).roam;
     EXPECT_TRUE(roam.closed);
     EXPECT_EQ(roam.keys.back().time - roam.keys.front().time, 60.0);
     EXPECT_LT(difference(roam.keys.front().pose, roam.keys.back().pose), 1e-12);
@@ -200,9 +200,9 @@ TEST(Presets, RoamIsAClosedTourOfAMinute) {
 std::vector<CameraPose> all_poses(const StadiumPlan& plan) {
     std::vector<CameraPose> poses;
     for (const char* name : {"still", "close", "medium", "remote"}) {
-        poses.push_back(scene::preset_path(name, plan).at(0));
+        poses.push_back(scene::aim_cameras(plan).named(name).at(0));
     }
-    const CameraPath roam = scene::preset_path("roam", plan);
+    const CameraPath roam = scene::aim_cameras(plan).roam;
     for (int frame = 0; frame < 60 * 20; ++frame) poses.push_back(roam.at(frame / 20.0));
     return poses;
 }
@@ -294,7 +294,7 @@ TEST(Presets, RemoteHasEverybodyInView) {
     for (const std::int64_t people : sizes) {
         const StadiumPlan plan = scene::plan_stadium(people);
         const Crowd crowd = scene::populate(plan, {people, cast.members, cast.poses, 1});
-        const CameraPose pose = scene::preset_path("remote", plan).at(0);
+        const CameraPose pose = scene::aim_cameras(plan).remote.at(0);
         EXPECT_EQ(share_in_view(pose, crowd, cast.members[0]), 1.0) << people << " people";
         EXPECT_GT(pose.position.y, plan.rim_height);
     }
@@ -305,7 +305,7 @@ TEST(Presets, StillHasMostOfAFullStadiumInView) {
     for (const std::int64_t people : {std::int64_t{8000}, std::int64_t{20000}, std::int64_t{60000}}) {
         const StadiumPlan plan = scene::plan_stadium(people);
         const Crowd crowd = scene::populate(plan, {people, cast.members, cast.poses, 1});
-        EXPECT_GT(share_in_view(scene::preset_path("still", plan).at(0), crowd, cast.members[0]), 0.6);
+        EXPECT_GT(share_in_view(scene::aim_cameras(plan).still.at(0), crowd, cast.members[0]), 0.6);
     }
 }
 
@@ -313,7 +313,7 @@ TEST(Presets, RemoteIsNoFurtherOffThanItMustBe) {
     const tests::FakeCast cast = tests::sitters();
     for (const std::int64_t people : sizes) {
         const StadiumPlan plan = scene::plan_stadium(people);
-        const CameraPose pose = scene::preset_path("remote", plan).at(0);
+        const CameraPose pose = scene::aim_cameras(plan).remote.at(0);
         // The outline of stands and of those who stand around them all but touches the picture's edge.
         const glm::dvec3 forward = glm::normalize(pose.target - pose.position);
         const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0, 1, 0))),
@@ -348,7 +348,7 @@ TEST(Presets, SeeAsWideAsCamerasDo) {
 TEST(Presets, StillIsInAnAisleHighUpInACorner) {
     for (const std::int64_t people : sizes) {
         const StadiumPlan plan = scene::plan_stadium(people);
-        const CameraPose pose = scene::preset_path("still", plan).at(0);
+        const CameraPose pose = scene::aim_cameras(plan).still.at(0);
         EXPECT_LT(pose.position.x, -0.8 * static_cast<double>(plan.oval.half_straight)) << "beside the pitch";
         EXPECT_GT(pose.position.z, 0.5 * static_cast<double>(plan.oval.radius)) << "behind the goal";
         const double least = plan.rows[plan.rows.size() * 3 / 4].floor;
@@ -387,8 +387,7 @@ TEST(Presets, CloseAndMediumLookAtSpectators) {
     for (const std::int64_t people : {std::int64_t{100}, std::int64_t{20000}, std::int64_t{200000}}) {
         const StadiumPlan plan = scene::plan_stadium(people);
         const Crowd crowd = scene::populate(plan, {people, cast.members, cast.poses, 1});
-        const CameraPose close = scene::preset_path("close", plan).at(0),
-                         medium = scene::preset_path("medium", plan).at(0);
+        const CameraPose close = scene::aim_cameras(plan).close.at(0), medium = scene::aim_cameras(plan).medium.at(0);
         EXPECT_GT(spectators_in_view(close, crowd, 15), 20) << people << " people";
         EXPECT_LT(close.position.y, plan.rows.front().floor + 2.5) << "not from above";
         EXPECT_GT(spectators_in_view(medium, crowd, 80), people == 100 ? 80 : 400) << people << " people";
@@ -419,10 +418,10 @@ TEST(Presets, CloseAndMediumAreAsNearAsTheyShould) {
     for (const std::int64_t people : {std::int64_t{100}, std::int64_t{20000}, std::int64_t{200000}}) {
         const StadiumPlan plan = scene::plan_stadium(people);
         const Crowd crowd = scene::populate(plan, {people, cast.members, cast.poses, 1});
-        const double close = nearest_spectator(scene::preset_path("close", plan).at(0), crowd);
+        const double close = nearest_spectator(scene::aim_cameras(plan).close.at(0), crowd);
         EXPECT_GT(close, 1.0);
         EXPECT_LT(close, 6.0);
-        const double medium = nearest_spectator(scene::preset_path("medium", plan).at(0), crowd);
+        const double medium = nearest_spectator(scene::aim_cameras(plan).medium.at(0), crowd);
         EXPECT_GT(medium, 20.0);
         EXPECT_LT(medium, 50.0);
     }
@@ -433,7 +432,7 @@ TEST(Presets, RoamGoesCloseMediumAndRemote) {
     for (const std::int64_t people : {std::int64_t{20000}, std::int64_t{200000}}) {
         const StadiumPlan plan = scene::plan_stadium(people);
         const Crowd crowd = scene::populate(plan, {people, cast.members, cast.poses, 1});
-        const CameraPath roam = scene::preset_path("roam", plan);
+        const CameraPath roam = scene::aim_cameras(plan).roam;
         int close = 0, medium = 0;
         for (int second = 0; second < 60; ++second) {
             const double nearest = nearest_spectator(roam.at(second), crowd);
@@ -443,7 +442,7 @@ TEST(Presets, RoamGoesCloseMediumAndRemote) {
         EXPECT_GE(close, 8) << "seconds along the front row";
         EXPECT_GE(medium, 8) << "seconds over the infield";
         EXPECT_EQ(share_in_view(roam.at(0), crowd, cast.members[0]), 1.0);
-        EXPECT_EQ(difference(roam.at(0), scene::preset_path("remote", plan).at(0)), 0);
+        EXPECT_EQ(difference(roam.at(0), scene::aim_cameras(plan).remote.at(0)), 0);
     }
 }
 
@@ -451,7 +450,7 @@ TEST(Presets, RoamLooksIntoTheStadiumAndNeitherRacesNorSpins) {
     constexpr double frame = 1.0 / 60;
     for (const std::int64_t people : sizes) {
         const StadiumPlan plan = scene::plan_stadium(people);
-        const CameraPath roam = scene::preset_path("roam", plan);
+        const CameraPath roam = scene::aim_cameras(plan).roam;
         const double size = glm::length(roam.at(0).position);
         for (double time = 0; time < 60; time += 0.05) {
             const CameraPose here = roam.at(time), next = roam.at(time + frame);

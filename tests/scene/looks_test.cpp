@@ -8,7 +8,7 @@
 #include <set>
 #include <tuple>
 
-#include "scene/places/stadium_layout.h"
+#include "scene/places/stadium_crowd.h"
 #include "scene/random.h"
 #include "tests/scene/statistics.h"
 
