@@ -162,6 +162,7 @@ private:
         renderer_.draw(drawn);
         const auto time = timer_.end();
         row.work = drawn.work;
+        row.drawn_state = drawn.state;
         rows_.push_back(row);
         last_tick_ = clock_.tick();
         return time;
@@ -244,7 +245,7 @@ private:
         char text[200];
         int length = std::snprintf(text, sizeof text, "Grandstand  %.1f / %.1f ms  %lld people  state %d", last_ms_,
                                    row.target_ms, static_cast<long long>(row.work[sfsm::WorkKind::person]),
-                                   static_cast<int>(decision.state));
+                                   static_cast<int>(*row.drawn_state));
         if (decision.state != sfsm::State::original)
             length += std::snprintf(text + length, sizeof text - length, "  D %.0f m", decision.motion_distance);
         if (decision.state == sfsm::State::points)

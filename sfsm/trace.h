@@ -5,6 +5,7 @@
 #include <iosfwd>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct TraceRow {
     Decision decision;                                               // the one this frame was drawn with
     double range = 0;                                                // L [m] given to the controller before this frame
     Work work;
+    std::optional<State> drawn_state;  // what became of the decision, if the renderer said so: at most its state
 
     // The forecast given to the controller before this frame; both empty if there was none.
     std::vector<Step> motion, shapes;

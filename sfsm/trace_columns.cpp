@@ -59,6 +59,16 @@ struct StateDigit {
     }
 };
 
+// A state that nobody may have said: an empty field.
+struct MaybeState {
+    static void write(std::string& line, std::optional<State> state) {
+        if (state) StateDigit::write(line, *state);
+    }
+    static std::string read(std::string_view field, std::optional<State>& state) {
+        return field.empty() ? std::string() : StateDigit::read(field, state.emplace());
+    }
+};
+
 struct Distance : Number {
     static std::string read(std::string_view field, double& metres) {
         std::string wrong = Number::read(field, metres);
@@ -190,13 +200,15 @@ constexpr auto columns_with(std::index_sequence<kind...>) {
             "what the law holds at the target: the slower of CPU and GPU, or all of it on a software driver"),
         column<MaybeNumber, &Row::cpu_ms>("cpu_ms", "ms", "to record the frame"),
         column<MaybeNumber, &Row::gpu_ms>("gpu_ms", "ms", "to draw it, where the driver can say"),
-        column<StateDigit, &Row::decision, &Decision::state>("state", "", "0, 1 or 2"),
+        column<StateDigit, &Row::decision, &Decision::state>("state", "", "0, 1 or 2: what was decided"),
         column<Distance, &Row::decision, &Decision::motion_distance>("motion_distance_m", "m",
                                                                      "D: people beyond it move less often"),
         column<SplatSize, &Row::decision, &Decision::splat_size>("splat_px", "px",
                                                                  "S: the size of the points in state 2"),
         count_column<kind>()...,
         column<Number, &Row::range>("range_m", "m", "L: how far people are visible, as the law was told"),
+        column<MaybeState, &Row::drawn_state>(
+            "drawn_state", "", "2: somebody was drawn by points; 1: somebody moved less often; 0: neither", optional),
         column<MaybeNumber, &Row::predicted_ms>("predicted_ms", "ms", "what the law expected of this frame", optional),
         column<Steps<WorkAxis::motion>, &Row::motion>("motion_steps", "", "the forecast: its steps of D", optional),
         column<Steps<WorkAxis::shape>, &Row::shapes>("splat_steps", "", "the forecast: its steps of S", optional),

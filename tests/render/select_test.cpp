@@ -124,6 +124,20 @@ TEST(Selection, WorkIsTheSumOverItsBatches) {
     EXPECT_GT(points, 0);
 }
 
+// Whatever was asked for: a frame in which nobody is a point is not of state 2, and one in which everybody moves in every
+// frame not of state 1.
+TEST(Selection, StateFollowsFromWhatWasDrawn) {
+    const render::View still = view_of("still"), close = view_of("close");
+    const double far = 2 * 300;  // [m] beyond everybody
+    EXPECT_EQ(select_once(still, {}).state, State::original);
+    EXPECT_EQ(select_once(still, {State::slowed, 5, 0}).state, State::slowed);
+    EXPECT_EQ(select_once(still, {State::slowed, far, 0}).state, State::original);
+    EXPECT_EQ(select_once(still, points_of(4, far)).state, State::points);
+    EXPECT_EQ(select_once(close, points_of(0.01, far)).state, State::original);
+    EXPECT_EQ(select_once(close, points_of(0.01, 1)).state, State::slowed);
+    EXPECT_EQ(select_once(view_of("remote"), points_of(8, far)).state, State::points);
+}
+
 TEST(Selection, LargerSplatsNeverCostMore) {
     const auto price = [](const Frame& s) {
         return 2 * s.work[sfsm::WorkKind::point] + s.work[sfsm::WorkKind::triangle];
