@@ -1,7 +1,6 @@
 // The stadium program's command line.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -12,6 +11,10 @@
 #include "sfsm/controller.h"
 #include "sfsm/decision.h"
 #include "sfsm/target.h"
+
+namespace CLI {
+class App;  // its header takes four seconds to compile
+}
 
 namespace apps {
 
