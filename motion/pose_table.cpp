@@ -10,13 +10,14 @@
 #include <stdexcept>
 #include <string>
 
+#include "model/unorm.h"
 #include "motion/octahedral.h"
 #include "motion/schedule.h"
 
 namespace motion {
 namespace {
 
-constexpr float position_steps = 65535.0f;  // of a 16-bit unorm
+constexpr auto position_steps = static_cast<float>(model::unorm_steps);
 
 // 200 days: more is a damaged file, and is cut. Half of what an int holds, so that rounding a period up fits too.
 constexpr std::int64_t longest_clip_ticks = std::int64_t{1} << 30;
@@ -155,17 +156,15 @@ void measure(const model::Character& character, std::span<const int> clips, cons
     table.rest_height = std::max({size.x, size.y, size.z});
 }
 
-std::uint16_t pack_unorm(float value, float min, float size) {
-    const float steps = size > 0.0f ? (value - min) / size * position_steps : 0.0f;
-    if (!(steps > 0.0f)) return 0;  // NaN too
-    return static_cast<std::uint16_t>(std::min(steps, position_steps) + 0.5f);
+std::uint16_t pack_between(float value, float min, float size) {
+    return size > 0.0f ? model::pack_unorm((value - min) / size) : std::uint16_t{0};
 }
 
 PosedVertex pack(const glm::vec3& position, const glm::vec3& normal, const Bounds& box) {
     const glm::vec3 size = box.size();
     const OctahedralNormal packed = pack_normal(normal);
-    return {pack_unorm(position.x, box.min.x, size.x), pack_unorm(position.y, box.min.y, size.y),
-            pack_unorm(position.z, box.min.z, size.z), packed.u, packed.v};
+    return {pack_between(position.x, box.min.x, size.x), pack_between(position.y, box.min.y, size.y),
+            pack_between(position.z, box.min.z, size.z), packed.u, packed.v};
 }
 
 PosedVertex pack_point(const model::Mesh& mesh, const PosedMesh& posed, const SurfacePoint& point, const Bounds& box) {

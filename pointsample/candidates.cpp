@@ -3,11 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pointsample/hash.h"
 #include "pointsample/surface_line.h"
+#include "sfsm/random.h"
 
 namespace pointsample {
 namespace {
+
+using sfsm::lower_unit;
+using sfsm::stream;
+using sfsm::unit;
+using sfsm::upper_unit;
 
 // How far a candidate strays from the middle of its cell, in cells. Less would show the grid, more brings nothing.
 constexpr float jitter = 0.5f;
@@ -102,12 +107,12 @@ void Stratifier::append(std::size_t count, Candidates& out) {
     for (const std::size_t last = next_ + std::min(count, left()); next_ < last; ++next_) {
         // The place on the line is random in the candidate's cell; the place in the triangle follows from that, down to
         // the smallest cells, and is random within.
-        const double within = 0.5 + static_cast<double>(jitter) * (unit(hash(seed_, 2 * next_)) - 0.5);
+        const double within = 0.5 + static_cast<double>(jitter) * (unit(stream(seed_, 2 * next_)) - 0.5);
         const double at = (static_cast<double>(next_) + within) * step_;
         go_to(at);
         const double along = std::clamp((at - start_) / (end_ - start_), 0.0, 0x1.fffffep-1);
         const glm::vec2 uv = place_in(cell_along(corners_[0], corners_[1], corners_[2], along, halvings_),
-                                      hash(seed_, 2 * next_ + 1), halvings_ == 0 ? 1.0f : jitter);
+                                      stream(seed_, 2 * next_ + 1), halvings_ == 0 ? 1.0f : jitter);
         const float u = std::clamp(uv.x, 0.0f, 1.0f), v = std::clamp(uv.y, 0.0f, 1.0f - u);
         const glm::vec3 position = (1.0f - u - v) * corners_[0] + u * corners_[1] + v * corners_[2];
         const std::uint32_t triangle = line_[slot_];

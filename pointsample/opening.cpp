@@ -4,10 +4,13 @@
 #include <limits>
 
 #include "pointsample/farthest_tree.h"
-#include "pointsample/hash.h"
+#include "sfsm/random.h"
 
 namespace pointsample {
 namespace {
+
+using sfsm::stream;
+using sfsm::unit;
 
 constexpr std::size_t most_spots = 512;
 constexpr float opposed_squared = opposed_factor * opposed_factor;
@@ -20,7 +23,7 @@ float squared_distance(const Place& a, const Place& b) {
 // Evenly along the candidates' line, so each stands for as much of the surface.
 std::vector<std::uint32_t> spots_of(const Candidates& candidates, std::uint64_t seed) {
     const std::size_t count = std::min(candidates.count, most_spots);
-    const double shift = unit(hash(seed, std::numeric_limits<std::uint64_t>::max()));  // no candidate's
+    const double shift = unit(stream(seed, std::numeric_limits<std::uint64_t>::max()));  // no candidate's
     std::vector<std::uint32_t> spots;
     for (std::size_t i = 0; i < count; ++i) {
         const double at = (static_cast<double>(i) + shift) / static_cast<double>(count);

@@ -114,9 +114,9 @@ PackedPoint packed(const PointModel& model, std::size_t i, const motion::Bounds&
     const glm::vec3& p = model.positions[i];
     const motion::OctahedralNormal normal = pack_normal(model.normals[i]);
     const glm::u8vec4& color = model.colors[i];
-    return {pack_unorm(p.x, box.min.x, box.max.x),
-            pack_unorm(p.y, box.min.y, box.max.y),
-            pack_unorm(p.z, box.min.z, box.max.z),
+    return {pack_between(p.x, box.min.x, box.max.x),
+            pack_between(p.y, box.min.y, box.max.y),
+            pack_between(p.z, box.min.z, box.max.z),
             normal.u,
             normal.v,
             color.r,
@@ -152,8 +152,8 @@ motion::Bounds box_of(const PointModel& model) {
 }
 
 glm::vec3 position_of(const PackedPoint& point, const motion::Bounds& box) {
-    return {unpack_unorm(point.x, box.min.x, box.max.x), unpack_unorm(point.y, box.min.y, box.max.y),
-            unpack_unorm(point.z, box.min.z, box.max.z)};
+    return {unpack_between(point.x, box.min.x, box.max.x), unpack_between(point.y, box.min.y, box.max.y),
+            unpack_between(point.z, box.min.z, box.max.z)};
 }
 
 }  // namespace
@@ -208,7 +208,8 @@ void PointsFile::check_values() const {
             fail("tint " + std::to_string(point.tint), "below " + std::to_string(model::tint_count));
     }
     for (const Barycentrics& uv : section_of<Barycentrics>(bytes_, uv_section))
-        if (std::uint32_t{uv[0]} + uv[1] > unorm_steps) fail("a point outside its triangle", "u + v of at most 1");
+        if (std::uint32_t{uv[0]} + uv[1] > model::unorm_steps)
+            fail("a point outside its triangle", "u + v of at most 1");
     for (const Weights& weights : section_of<Weights>(bytes_, weight_section))
         if (weights[0] + weights[1] + weights[2] + weights[3] != 255) fail("weights that do not sum to 1", "they do");
     for (const float spacing : section_of<float>(bytes_, spacing_section))

@@ -7,25 +7,25 @@
 namespace pointsample {
 namespace {
 
-constexpr double steps = unorm_steps;
+constexpr double steps = model::unorm_steps;
 constexpr int weight_steps = 255;
 
 }  // namespace
 
-float unpack_unorm(std::uint16_t code, float min, float max) {
+float unpack_between(std::uint16_t code, float min, float max) {
     return static_cast<float>((static_cast<double>(min) * (steps - code) + static_cast<double>(max) * code) / steps);
 }
 
-std::uint16_t pack_unorm(float value, float min, float max) {
+std::uint16_t pack_between(float value, float min, float max) {
     const double size = static_cast<double>(max) - static_cast<double>(min);
-    const double at = size > 0 ? (static_cast<double>(value) - static_cast<double>(min)) / size * steps : 0.0;
-    if (!(at > 0)) return 0;
-    const auto nearest = static_cast<std::uint16_t>(std::lround(std::min(at, steps)));
+    if (!(size > 0)) return 0;
+    const std::uint16_t nearest = model::pack_unorm((static_cast<double>(value) - static_cast<double>(min)) / size);
     // Where floats are as coarse as steps, what was unpacked from a code may be nearer to its neighbour.
     for (const int step : {0, -1, 1}) {
         const int code = nearest + step;
-        if (code < 0 || code > static_cast<int>(unorm_steps)) continue;
-        if (unpack_unorm(static_cast<std::uint16_t>(code), min, max) == value) return static_cast<std::uint16_t>(code);
+        if (code < 0 || code > static_cast<int>(model::unorm_steps)) continue;
+        if (unpack_between(static_cast<std::uint16_t>(code), min, max) == value)
+            return static_cast<std::uint16_t>(code);
     }
     return nearest;
 }
@@ -47,7 +47,7 @@ std::array<std::uint16_t, 2> pack_barycentrics(float u, float v) {
     const double vs = std::clamp(static_cast<double>(v), 0.0, 1.0) * steps;
     const long first = std::lround(us), second = std::lround(vs);
     // Two halves rounded up.
-    const long over = std::max(0L, first + second - static_cast<long>(unorm_steps));
+    const long over = std::max(0L, first + second - static_cast<long>(model::unorm_steps));
     const bool at_first = static_cast<double>(first) - us > static_cast<double>(second) - vs;
     const long lower = std::min(over, at_first ? first : second);
     return {static_cast<std::uint16_t>(first - (at_first ? lower : 0)),

@@ -6,17 +6,16 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
+#include "model/unorm.h"
 #include "motion/octahedral.h"
 
 namespace pointsample {
 
-inline constexpr std::uint32_t unorm_steps = 65535;
-
 // The multiple of the range's 65535th from `min` on, in double: both ends are exact, all else is between them.
-float unpack_unorm(std::uint16_t code, float min, float max);
+float unpack_between(std::uint16_t code, float min, float max);
 
 // The nearest; NaN is min.
-std::uint16_t pack_unorm(float value, float min, float max);
+std::uint16_t pack_between(float value, float min, float max);
 
 // motion::pack_normal's; of codes that mean almost the same, the one that unpacks to `normal` itself, if one does.
 motion::OctahedralNormal pack_normal(const glm::vec3& normal);

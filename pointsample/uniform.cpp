@@ -2,9 +2,13 @@
 
 #include <algorithm>
 
-#include "pointsample/hash.h"
+#include "sfsm/random.h"
 
 namespace pointsample {
+
+using sfsm::lower_unit;
+using sfsm::stream;
+using sfsm::upper_unit;
 
 AliasTable::AliasTable(const Surface& surface) {
     std::vector<double> share;
@@ -39,7 +43,7 @@ AliasTable::AliasTable(const Surface& surface) {
 }
 
 motion::SurfacePoint AliasTable::draw(std::uint64_t seed, std::uint64_t index) const {
-    const std::uint64_t a = hash(seed, 2 * index), b = hash(seed, 2 * index + 1);
+    const std::uint64_t a = stream(seed, 2 * index), b = stream(seed, 2 * index + 1);
     const Slot& slot = slots_[(a >> 32) * slots_.size() >> 32];
     const std::uint32_t triangle = static_cast<std::uint32_t>(a) < slot.threshold ? slot.own : slot.other;
     const float u = upper_unit(b), v = lower_unit(b);

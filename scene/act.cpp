@@ -4,11 +4,16 @@
 
 #include "motion/schedule.h"
 #include "scene/crowd.h"
-#include "scene/random.h"
+#include "sfsm/random.h"
 
 namespace scene {
 
 namespace {
+
+using sfsm::below;
+using sfsm::hash;
+using sfsm::mix;
+using sfsm::upper_unit;
 
 // What a random number is for.
 enum Salt : std::uint64_t { salt_phase = 101, salt_act, salt_mood, salt_wave, salt_arrival };
@@ -31,7 +36,7 @@ std::int64_t wave_start(std::int64_t wave, float around, std::uint32_t own) {
 }
 
 bool takes_part(std::int64_t wave, std::uint32_t own) {
-    return unit(hash(hash(own, salt_wave), static_cast<std::uint64_t>(wave))) < wave_share;
+    return upper_unit(hash(hash(own, salt_wave), static_cast<std::uint64_t>(wave))) < wave_share;
 }
 
 // Chance that somebody is excited in a period that starts at `tick`: each part of the place has moods of its own.
@@ -41,7 +46,7 @@ float excitement(float around, std::int64_t tick) {
     constexpr float calmest = 0.04f, swing = 0.7f;
     const std::uint64_t part = static_cast<std::uint64_t>(around * parts);
     const std::uint64_t mood = static_cast<std::uint64_t>(floor_div(tick, mood_length));
-    const float level = unit(hash(hash(salt_mood, part), mood));
+    const float level = upper_unit(hash(hash(salt_mood, part), mood));
     return calmest + swing * level * level * level;  // mostly calm
 }
 
@@ -66,7 +71,7 @@ bool acts_alternate(const Acts& acts, const motion::PoseTable& poses) {
 Action keep_acting(const Acts& acts, const motion::PoseTable& poses, std::uint32_t own, std::int64_t tick) {
     constexpr float excited_share = 0.25f;
     const std::uint64_t bits = hash(own, salt_act);
-    const bool excited = !acts.excited.empty() && unit(bits) < excited_share;
+    const bool excited = !acts.excited.empty() && upper_unit(bits) < excited_share;
     const std::uint8_t clip = choose(excited ? acts.excited : acts.calm, mix(bits));
     const std::int64_t length = length_of(poses, clip);
     const std::int64_t time = tick + below(hash(own, salt_phase), static_cast<std::uint32_t>(length));
@@ -90,7 +95,7 @@ Action alternate(const Acts& acts, const motion::PoseTable& poses, std::uint32_t
         if (start + length > next && takes_part(wave + 1, own)) return {acts.calm.front(), 0};
     }
     const std::uint64_t bits = hash(hash(own, salt_act), static_cast<std::uint64_t>(period));
-    const bool excited = unit(bits) < excitement(around, start);
+    const bool excited = upper_unit(bits) < excitement(around, start);
     return {choose(excited ? acts.excited : acts.calm, mix(bits)), tick - start};
 }
 
@@ -121,7 +126,7 @@ Action act(const Crowd& crowd, std::size_t person, const CastMember& member, con
 bool has_arrived(const Crowd& crowd, std::size_t person, std::int64_t tick) {
     if (tick >= crowd.filled_tick) return true;
     const double share = static_cast<double>(tick) / static_cast<double>(crowd.filled_tick);
-    return unit(hash(crowd.hash[person], salt_arrival)) < share;
+    return upper_unit(hash(crowd.hash[person], salt_arrival)) < share;
 }
 
 }  // namespace scene

@@ -6,11 +6,14 @@
 #include <utility>
 
 #include "scene/person.h"
-#include "scene/random.h"
+#include "sfsm/random.h"
 
 namespace scene {
 
 namespace {
+
+using sfsm::below;
+using sfsm::hash;
 
 // Room for rounding when a shader scales and turns a person in another order [m].
 constexpr float box_margin = 0.01f;

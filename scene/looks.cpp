@@ -4,11 +4,15 @@
 #include <array>
 #include <numbers>
 
-#include "scene/random.h"
+#include "sfsm/random.h"
 
 namespace scene {
 
 namespace {
+
+using sfsm::below;
+using sfsm::mix;
+using sfsm::upper_unit;
 
 constexpr glm::u8vec4 rgb(int red, int green, int blue) {
     return {static_cast<std::uint8_t>(red), static_cast<std::uint8_t>(green), static_cast<std::uint8_t>(blue), 255};
@@ -47,7 +51,7 @@ Palette dress(Fans fans, std::uint64_t bits) {
     const std::uint32_t hair = below(next(), skin < fair_skins ? static_cast<std::uint32_t>(hairs.size()) : dark_hairs);
     palette.skin = skins[skin];
     palette.hair = hairs[hair];
-    const float team = unit(next());
+    const float team = upper_unit(next());
     if (team < fans.home) {
         palette.shirt = pick(home_shirts, next());
     } else if (team < fans.home + fans.away) {
@@ -63,7 +67,7 @@ Palette dress(Fans fans, std::uint64_t bits) {
 float draw_height(std::uint64_t bits) {
     constexpr float mean = 1.70f, deviation = 0.09f, low = 1.5f, high = 2.0f;
     float sum = 0;
-    for (int i = 0; i < 4; ++i) sum += unit(bits = mix(bits));
+    for (int i = 0; i < 4; ++i) sum += upper_unit(bits = mix(bits));
     return std::clamp(mean + deviation * std::numbers::sqrt3_v<float> * (sum - 2.0f), low, high);
 }
 

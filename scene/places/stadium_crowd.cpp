@@ -8,11 +8,16 @@
 #include <utility>
 
 #include "scene/places/stadium_layout.h"
-#include "scene/random.h"
+#include "sfsm/random.h"
 
 namespace scene {
 
 namespace {
+
+using sfsm::hash;
+using sfsm::mix;
+using sfsm::triangle;
+using sfsm::upper_unit;
 
 // Athletes run in files, two a lane. A file has one character and one height, hence one speed, so that nobody ever
 // runs through anybody. Runners have the inner lanes.
@@ -29,8 +34,8 @@ void add_athletes(Gathering& gathering, const Oval& track, std::uint32_t count) 
             const std::uint64_t file_bits = gathering.bits(salt_lane, file);
             const std::uint32_t in_file = (count - i % files + files - 1) / files;
             const float offset = static_cast<float>(file / 2) * lane_width + (file % 2 == 0 ? inner_file : outer_file);
-            const float slot = static_cast<float>(i / files) + unit(mix(file_bits)) +
-                               (1 - clear_share) * unit(gathering.bits(salt_place, i));
+            const float slot = static_cast<float>(i / files) + upper_unit(mix(file_bits)) +
+                               (1 - clear_share) * upper_unit(gathering.bits(salt_place, i));
             const float length = track.length(offset);
             const float arc = std::fmod(slot / static_cast<float>(in_file) * length, length);
             gathering.add({.position = {offset, 0, arc},

@@ -5,11 +5,16 @@
 
 #include "scene/places/stadium_crowd.h"
 #include "scene/places/stadium_layout.h"
-#include "scene/random.h"
+#include "sfsm/random.h"
 
 namespace scene {
 
 namespace {
+
+using sfsm::hash;
+using sfsm::mix;
+using sfsm::triangle;
+using sfsm::upper_unit;
 
 // Smooth noise in [0, 1] over the plane: people cluster.
 float clustering(const Gathering& gathering, glm::vec2 xz) {
@@ -20,7 +25,7 @@ float clustering(const Gathering& gathering, glm::vec2 xz) {
     const auto corner = [&](int i, int j) {
         const std::uint64_t x = static_cast<std::uint64_t>(static_cast<std::int64_t>(cell.x) + i);
         const std::uint64_t z = static_cast<std::uint64_t>(static_cast<std::int64_t>(cell.y) + j);
-        return unit(hash(gathering.bits(salt_density, x), z));
+        return upper_unit(hash(gathering.bits(salt_density, x), z));
     };
     return glm::mix(glm::mix(corner(0, 0), corner(1, 0), ease.x), glm::mix(corner(0, 1), corner(1, 1), ease.x), ease.y);
 }
@@ -66,10 +71,10 @@ void for_each_place(const Gathering& gathering, const StadiumPlan& plan, Area ar
         const int row = cell.z * cell_places + place / cell_places;
         const std::uint64_t bits =
             hash(gathering.bits(salt_place, static_cast<std::uint64_t>(column)), static_cast<std::uint64_t>(row));
-        const glm::vec2 jitter(2.0f * unit(bits) - 1.0f, 2.0f * unit(mix(bits)) - 1.0f);
+        const glm::vec2 jitter(2.0f * upper_unit(bits) - 1.0f, 2.0f * upper_unit(mix(bits)) - 1.0f);
         const glm::vec2 xz = pitch * (glm::vec2(column, row) + 0.5f) + standing_jitter * jitter;
         const float share = standing_share + share_swing * (2.0f * clustering(gathering, xz) - 1.0f);
-        if (unit(hash(bits, salt_density)) >= share) continue;
+        if (upper_unit(hash(bits, salt_density)) >= share) continue;
         const float offset = plan.oval.offset_of(xz);
         if (is_free(plan, area, xz, offset)) visit(StandingPlace{xz, offset, bits});
     }

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <map>
 
-#include "pointsample/hash.h"
+#include "sfsm/random.h"
 #include "tests/pointsample/shapes.h"
 
 namespace tests {
@@ -127,11 +127,11 @@ model::Mesh make_scan() {
     model::Mesh mesh = geodesic(cuts);
     constexpr float edge = 1.1f / cuts;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        const std::uint64_t a = pointsample::hash(7, 2 * i), b = pointsample::hash(7, 2 * i + 1);
-        const glm::vec3 astray(pointsample::upper_unit(a), pointsample::lower_unit(a), pointsample::upper_unit(b));
+        const std::uint64_t a = sfsm::stream(7, 2 * i), b = sfsm::stream(7, 2 * i + 1);
+        const glm::vec3 astray(sfsm::upper_unit(a), sfsm::lower_unit(a), sfsm::upper_unit(b));
         glm::vec3& p = mesh.positions[i];
         p = glm::normalize(p + 0.6f * edge * (astray - 0.5f));
-        p *= 1.0f + bumps(p, 0.35f, 3.0f, 4) + 0.15f * edge * (pointsample::lower_unit(b) - 0.5f);
+        p *= 1.0f + bumps(p, 0.35f, 3.0f, 4) + 0.15f * edge * (sfsm::lower_unit(b) - 0.5f);
         p.y *= 1.6f;
     }
     return finished(mesh);

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "scene/crowd.h"
-#include "scene/random.h"
+#include "sfsm/random.h"
 #include "tests/scene/fake_cast.h"
 #include "tests/scene/statistics.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "scene/random.h"
+#include "sfsm/random.h"
 #include "tests/scene/fake_cast.h"
 #include "tests/scene/spacing.h"
 
@@ -119,9 +119,9 @@ TEST(Populate, BlocksHoldAllThatTheirPeopleTouchAtAnyTick) {
     std::uint64_t bits = 3;
     for (const CrowdBlock& block : crowd.blocks) {
         for (int trial = 0; trial < 50; ++trial) {
-            bits = scene::mix(bits);
-            const std::size_t person = block.first + scene::below(bits, block.count);
-            const std::int64_t tick = scene::below(scene::mix(bits), 1'000'000);
+            bits = sfsm::mix(bits);
+            const std::size_t person = block.first + sfsm::below(bits, block.count);
+            const std::int64_t tick = sfsm::below(sfsm::mix(bits), 1'000'000);
             const motion::PoseTable& table = cast.poses[crowd.character[person]];
             const scene::Placement at = scene::place(crowd, person, cast.members[crowd.character[person]], tick);
             const float scale = crowd.height[person] / table.rest_height;
@@ -301,7 +301,7 @@ TEST(Act, ClipTickIsWithinTheClip) {
     std::uint64_t bits = 1;
     for (std::size_t i = 0; i < crowd.size(); ++i) {
         const std::uint8_t character = crowd.character[i];
-        bits = scene::mix(bits);
+        bits = sfsm::mix(bits);
         for (const std::int64_t tick : {std::int64_t{0}, static_cast<std::int64_t>(bits >> 40), std::int64_t{-5000}}) {
             const scene::Action action = scene::act(crowd, i, cast.members[character], cast.poses[character], tick);
             ASSERT_LT(action.clip, cast.poses[character].clips.size());

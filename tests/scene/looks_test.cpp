@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "scene/places/stadium_crowd.h"
-#include "scene/random.h"
+#include "sfsm/random.h"
 #include "tests/scene/statistics.h"
 
 namespace {
@@ -36,7 +36,7 @@ double distance(glm::u8vec4 a, glm::u8vec4 b) {
 
 std::vector<Palette> dressed(Fans fans, std::uint64_t seed = 1) {
     std::vector<Palette> result;
-    for (int i = 0; i < drawn; ++i) result.push_back(scene::dress(fans, scene::hash(seed, i)));
+    for (int i = 0; i < drawn; ++i) result.push_back(scene::dress(fans, sfsm::hash(seed, i)));
     return result;
 }
 
@@ -61,39 +61,39 @@ constexpr glm::u8vec4 Palette::*parts[] = {&Palette::skin, &Palette::hair, &Pale
 
 TEST(Random, IsSplitmix) {
     // The first two numbers of the published generator from seed 1234567.
-    EXPECT_EQ(scene::mix(1234567), 6457827717110365317u);
-    EXPECT_EQ(scene::mix(1234567 + 0x9e3779b97f4a7c15u), 3203168211198807973u);
+    EXPECT_EQ(sfsm::mix(1234567), 6457827717110365317u);
+    EXPECT_EQ(sfsm::mix(1234567 + 0x9e3779b97f4a7c15u), 3203168211198807973u);
 }
 
 TEST(Random, UnitFillsItsRangeEvenly) {
     std::vector<std::int64_t> counts(64, 0);
     for (std::uint64_t i = 0; i < 64000; ++i) {
-        const float value = scene::unit(scene::mix(i));
+        const float value = sfsm::upper_unit(sfsm::mix(i));
         ASSERT_GE(value, 0.0f);
         ASSERT_LT(value, 1.0f);
         ++counts[static_cast<std::size_t>(value * 64)];
     }
     EXPECT_LT(tests::unevenness(counts), tests::chance);
-    EXPECT_EQ(scene::unit(0), 0.0f);
-    EXPECT_LT(scene::unit(~std::uint64_t{0}), 1.0f);
-    EXPECT_GT(scene::unit(~std::uint64_t{0}), 0.9999f);
+    EXPECT_EQ(sfsm::upper_unit(0), 0.0f);
+    EXPECT_LT(sfsm::upper_unit(~std::uint64_t{0}), 1.0f);
+    EXPECT_GT(sfsm::upper_unit(~std::uint64_t{0}), 0.9999f);
 }
 
 TEST(Random, BelowTakesEveryValueEquallyOften) {
     for (const std::uint32_t n : {1u, 2u, 7u, 240u}) {
         std::vector<std::int64_t> counts(n, 0);
-        for (std::uint64_t i = 0; i < 100ull * n; ++i) ++counts.at(scene::below(scene::mix(i), n));
+        for (std::uint64_t i = 0; i < 100ull * n; ++i) ++counts.at(sfsm::below(sfsm::mix(i), n));
         if (n > 1) {
             EXPECT_LT(tests::unevenness(counts), tests::chance) << n;
         }
-        EXPECT_EQ(scene::below(~std::uint64_t{0}, n), n - 1);
+        EXPECT_EQ(sfsm::below(~std::uint64_t{0}, n), n - 1);
     }
 }
 
 TEST(Random, HashTellsItsArgumentsApart) {
     std::set<std::uint64_t> seen;
     for (std::uint64_t a = 0; a < 100; ++a)
-        for (std::uint64_t b = 0; b < 100; ++b) seen.insert(scene::hash(a, b));
+        for (std::uint64_t b = 0; b < 100; ++b) seen.insert(sfsm::hash(a, b));
     EXPECT_EQ(seen.size(), 10000u);
 }
 
@@ -225,7 +225,7 @@ TEST(Looks, WhoHasDarkSkinHasDarkHairAndTheFairHaveAny) {
 TEST(Looks, HeightsAreNormalUpToTheirLimits) {
     constexpr double average = 1.70, spread = 0.09;  // [m] of adults
     std::vector<double> heights;
-    for (std::uint64_t i = 0; i < drawn; ++i) heights.push_back(scene::draw_height(scene::mix(i)));
+    for (std::uint64_t i = 0; i < drawn; ++i) heights.push_back(scene::draw_height(sfsm::mix(i)));
     const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
     EXPECT_NEAR(*low, 1.50, 0.01);
     EXPECT_NEAR(*high, 2.00, 0.04);

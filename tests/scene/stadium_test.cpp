@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "scene/random.h"
+#include "sfsm/random.h"
 #include "tests/scene/spacing.h"
 
 namespace {
@@ -233,8 +233,8 @@ TEST_P(Structure, NobodySeesTheBackOfASurface) {
     std::uint64_t bits = 1;
     for (const glm::vec3& eye : eyes) {
         for (std::size_t i = 0; i < tried; ++i) {
-            bits = scene::mix(bits);
-            const std::size_t t = scene::below(bits, static_cast<std::uint32_t>(triangle_count()));
+            bits = sfsm::mix(bits);
+            const std::size_t t = sfsm::below(bits, static_cast<std::uint32_t>(triangle_count()));
             const glm::vec3 middle = (corner(t, 0).position + corner(t, 1).position + corner(t, 2).position) / 3.0f;
             bool hidden = false;  // by what is drawn: faces towards the eye
             for (std::size_t other = 0; other < triangle_count() && !hidden; ++other) {

@@ -12,7 +12,7 @@
 
 #include "scene/crowd.h"
 #include "scene/places/stadium.h"
-#include "scene/random.h"
+#include "sfsm/random.h"
 #include "tests/scene/fake_cast.h"
 
 namespace {
@@ -576,7 +576,7 @@ TEST(Screens, OfBothEndsShowTheirPictureToThePitch) {
 TEST(Ground, CoversEveryPlaceWithinTwoKilometresOnce) {
     std::uint64_t bits = 1;
     for (int trial = 0; trial < 3000; ++trial) {
-        const auto draw = [&] { return 3999.9f * (scene::unit(bits = scene::mix(bits)) - 0.5f); };
+        const auto draw = [&] { return 3999.9f * (sfsm::upper_unit(bits = sfsm::mix(bits)) - 0.5f); };
         const glm::vec2 at(draw(), draw());
         int covers = 0;
         for (const Triangle& t : stadium(20'000).triangles) {
