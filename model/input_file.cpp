@@ -16,8 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t block = std::size_t{1} << 16;
-
 // What is there in place of a file.
 std::string kind_of(const fs::path& path, const std::error_code& error, fs::file_type type) {
     if (path.empty()) return "an empty name";
@@ -69,8 +67,7 @@ void throw_with_name(const fs::path& path) {
     }
 }
 
-InputFile::InputFile(const fs::path& path, const std::string& expected)
-    : capacity_(block), bytes_(std::make_unique_for_overwrite<char[]>(block)) {
+InputFile::InputFile(const fs::path& path, const std::string& expected) {
     std::error_code error;
     const fs::file_type type = fs::status(path, error).type();
     if (type != fs::file_type::regular) fail(kind_of(path, error, type), expected);
@@ -88,64 +85,43 @@ InputFile::~InputFile() {
     close(descriptor_);
 }
 
-// Reads behind the bytes not yet handed out; false at the end of the file.
+// False at the end of the file.
 bool InputFile::fill() {
-    if (begin_ > 0) std::memmove(bytes_.get(), bytes_.get() + begin_, end_ - begin_);
-    end_ -= begin_;
-    begin_ = 0;
-    if (end_ == capacity_) {
-        auto larger = std::make_unique_for_overwrite<char[]>(2 * capacity_);
-        std::memcpy(larger.get(), bytes_.get(), end_);
-        bytes_ = std::move(larger);
-        capacity_ *= 2;
-    }
-    const std::size_t wanted = static_cast<std::size_t>(std::min<std::uint64_t>(unread_, capacity_ - end_));
+    const std::span<char> room = buffer_.room();
+    const std::size_t wanted = static_cast<std::size_t>(std::min<std::uint64_t>(unread_, room.size()));
     ssize_t got = 0;
     do {
-        got = wanted > 0 ? read(descriptor_, bytes_.get() + end_, wanted) : 0;
+        got = wanted > 0 ? read(descriptor_, room.data(), wanted) : 0;
     } while (got < 0 && errno == EINTR);
     if (got < 0) fail(reason(), "its bytes");
     unread_ = got == 0 ? 0 : unread_ - static_cast<std::uint64_t>(got);  // it may have become shorter
-    end_ += static_cast<std::size_t>(got);
+    buffer_.added(static_cast<std::size_t>(got));
     return got > 0;
 }
 
 bool InputFile::line(std::string_view& out) {
     ++line_number_;
-    std::size_t searched = 0;  // of the bytes from begin_
-    const char* newline = nullptr;
-    while (true) {
-        const char* begin = bytes_.get() + begin_;
-        const std::size_t size = end_ - begin_;
-        if (size > searched) newline = static_cast<const char*>(std::memchr(begin + searched, '\n', size - searched));
-        if (newline) break;
-        if (size > longest_line) fail("a line over 16 MiB", "shorter ones");
-        searched = size;
-        if (!fill()) break;
-    }
-    if (!newline && begin_ == end_) {
+    while (!buffer_.take_line(out)) {
+        if (buffer_.size() > longest_line) fail("a line over 16 MiB", "shorter ones");
+        if (fill()) continue;
+        if (buffer_.take_last_line(out)) break;
         --line_number_;
         return false;
     }
-    const char* begin = bytes_.get() + begin_;
-    const std::size_t length = newline ? static_cast<std::size_t>(newline - begin) : end_ - begin_;
-    begin_ += length + (newline ? 1 : 0);
-    out = {begin, length};
-    if (out.ends_with('\r')) out.remove_suffix(1);
     return true;
 }
 
 void InputFile::require(std::size_t size) {
-    while (end_ - begin_ < size)
+    while (buffer_.size() < size)
         if (!fill()) fail("the end of the file", "more data");
 }
 
 void InputFile::skip(std::uint64_t size) {
     if (size > left()) fail("the end of the file", "more data");
     while (size > 0) {
-        if (begin_ == end_) require(1);
-        const std::size_t step = static_cast<std::size_t>(std::min<std::uint64_t>(size, end_ - begin_));
-        begin_ += step;
+        if (buffer_.size() == 0) require(1);
+        const std::size_t step = static_cast<std::size_t>(std::min<std::uint64_t>(size, buffer_.size()));
+        buffer_.take(step);
         size -= step;
     }
 }
@@ -155,8 +131,8 @@ std::vector<unsigned char> read_file(const fs::path& path, const std::string& ex
     if (file.left() > most_bytes)
         fail(std::to_string(file.left()) + " bytes", "a file of at most " + std::to_string(most_bytes));
     std::vector<unsigned char> bytes(static_cast<std::size_t>(file.left()));
-    for (std::size_t at = 0; at < bytes.size(); at += block) {
-        const std::size_t size = std::min(block, bytes.size() - at);
+    for (std::size_t at = 0; at < bytes.size(); at += sfsm::BlockBuffer::block) {
+        const std::size_t size = std::min(sfsm::BlockBuffer::block, bytes.size() - at);
         std::memcpy(bytes.data() + at, file.take(size), size);
     }
     return bytes;

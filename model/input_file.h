@@ -5,10 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "sfsm/block_buffer.h"
 
 namespace model {
 
@@ -42,7 +43,7 @@ public:
     InputFile& operator=(const InputFile&) = delete;
 
     int descriptor() const { return descriptor_; }
-    std::uint64_t left() const { return unread_ + (end_ - begin_); }  // bytes not yet handed out
+    std::uint64_t left() const { return unread_ + buffer_.size(); }  // bytes not yet handed out
 
     // The next line without its line end (LF or CR LF); valid until the next call. False: there is none.
     bool line(std::string_view& out);
@@ -50,10 +51,8 @@ public:
 
     // The next bytes, valid until the next call; throws where there are fewer. size: at most 64 KiB.
     const unsigned char* take(std::size_t size) {
-        if (end_ - begin_ < size) require(size);
-        const std::size_t at = begin_;
-        begin_ += size;
-        return reinterpret_cast<const unsigned char*>(bytes_.get()) + at;
+        if (buffer_.size() < size) require(size);
+        return reinterpret_cast<const unsigned char*>(buffer_.take(size));
     }
     void skip(std::uint64_t size);
 
@@ -63,9 +62,7 @@ private:
 
     int descriptor_ = -1;
     std::uint64_t unread_ = 0;  // of the size that the file had
-    std::size_t capacity_;
-    std::unique_ptr<char[]> bytes_;
-    std::size_t begin_ = 0, end_ = 0;  // of what is read and not yet handed out
+    sfsm::BlockBuffer buffer_;
     std::uint64_t line_number_ = 0;
 };
 

@@ -1,7 +1,6 @@
 #include "sfsm/line_reader.h"
 
 #include <algorithm>
-#include <cstring>
 #include <istream>
 #include <stdexcept>
 #include <utility>
@@ -9,52 +8,39 @@
 namespace sfsm {
 namespace {
 
-constexpr std::size_t block = std::size_t{64} << 10;  // stays in the second-level cache until it is read again
+constexpr const char* too_long = "found a line over 1 MiB, expected a row of a trace";
 
 }  // namespace
 
-LineReader::LineReader(std::istream& in, std::string name) : in_(in), name_(std::move(name)), buffer_(block) {
+LineReader::LineReader(std::istream& in, std::string name) : in_(in), name_(std::move(name)) {
     fill();
-    if (head().starts_with("\xEF\xBB\xBF")) begin_ += 3;
+    constexpr std::string_view mark = "\xEF\xBB\xBF";
+    if (head().starts_with(mark)) buffer_.take(mark.size());
 }
 
 bool LineReader::next(std::string_view& line) {
     ++number_;
-    std::size_t searched = 0;  // of the bytes from begin_
-    const char* newline = nullptr;
-    while (true) {
-        const char* begin = buffer_.data() + begin_;
-        const std::size_t size = end_ - begin_;
-        if (size > searched) newline = static_cast<const char*>(std::memchr(begin + searched, '\n', size - searched));
-        const std::size_t length = newline ? static_cast<std::size_t>(newline - begin) : size;
-        if (length > longest_line) fail("found a line over 1 MiB, expected a row of a trace");
-        if (newline) break;
-        searched = size;
+    has_line_end_ = buffer_.take_line(line);
+    while (!has_line_end_) {
+        if (buffer_.size() > longest_line) fail(too_long);
         if (!fill()) break;
+        has_line_end_ = buffer_.take_line(line);
     }
-    if (!newline && begin_ == end_) {
+    if (!has_line_end_ && !buffer_.take_last_line(line)) {
         --number_;
+        has_line_end_ = true;
         return false;
     }
-    has_line_end_ = newline != nullptr;
-    const std::size_t length = newline ? static_cast<std::size_t>(newline - (buffer_.data() + begin_)) : end_ - begin_;
-    line = {buffer_.data() + begin_, length};
-    begin_ += length + has_line_end_;
-    if (line.ends_with('\r')) line.remove_suffix(1);
+    if (line.size() > longest_line) fail(too_long);
     return true;
 }
 
-// Reads behind the bytes not yet handed out. False at the end of the stream.
+// False at the end of the stream.
 bool LineReader::fill() {
-    if (begin_ > 0) {
-        std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
-        end_ -= begin_;
-        begin_ = 0;
-    }
-    if (end_ == buffer_.size()) buffer_.resize(2 * buffer_.size());
-    in_.read(buffer_.data() + end_, static_cast<std::streamsize>(buffer_.size() - end_));
+    const std::span<char> room = buffer_.room();
+    in_.read(room.data(), static_cast<std::streamsize>(room.size()));
     if (in_.bad()) fail("found a file that can't be read on, expected a row of a trace");
-    end_ += static_cast<std::size_t>(in_.gcount());
+    buffer_.added(static_cast<std::size_t>(in_.gcount()));
     return in_.gcount() > 0;
 }
 

@@ -6,7 +6,8 @@
 #include <iosfwd>
 #include <string>
 #include <string_view>
-#include <vector>
+
+#include "sfsm/block_buffer.h"
 
 namespace sfsm {
 
@@ -18,7 +19,7 @@ public:
     LineReader(std::istream& in, std::string name);
 
     // The first bytes of the file (up to 64 KiB), to tell what it is. Before the first line only.
-    std::string_view head() const { return {buffer_.data() + begin_, end_ - begin_}; }
+    std::string_view head() const { return buffer_.rest(); }
 
     // The next line without its line end (LF or CR LF); valid until the next call. False: there is none. Throws
     // std::runtime_error for a line over longest_line and where the stream can't be read.
@@ -26,11 +27,11 @@ public:
 
     // The next byte, or -1 at the end: for readers of a format without lines. Those taken are counted nevertheless, a
     // line feed as the last of its line.
-    int peek_byte() { return begin_ == end_ && !fill() ? -1 : static_cast<unsigned char>(buffer_[begin_]); }
+    int peek_byte() { return buffer_.size() == 0 && !fill() ? -1 : static_cast<unsigned char>(buffer_.rest().front()); }
     int next_byte() {
         const int byte = peek_byte();
         if (byte < 0) return byte;
-        ++begin_;
+        buffer_.take(1);
         number_ = newlines_ + 1;
         newlines_ += byte == '\n';
         return byte;
@@ -49,8 +50,7 @@ private:
 
     std::istream& in_;
     std::string name_;
-    std::vector<char> buffer_;
-    std::size_t begin_ = 0, end_ = 0;  // of what is read and not yet handed out, in buffer_
+    BlockBuffer buffer_;
     std::int64_t number_ = 0, newlines_ = 0;
     bool has_line_end_ = true;
 };

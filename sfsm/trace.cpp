@@ -64,13 +64,11 @@ Header parse_header(std::string_view line, const LineReader& place) {
     return header;
 }
 
-TraceRow parse_row(const Header& header, std::span<const std::string_view> fields, const LineReader& place) {
-    TraceRow row;
+void parse_row(const Header& header, std::span<const std::string_view> fields, const LineReader& place, TraceRow& row) {
     for (const auto& [column, position] : header.columns) {
         const std::string wrong = column->read(row, fields[position]);
         if (!wrong.empty()) place.fail(std::string(column->name) + ' ' + wrong);
     }
-    return row;
 }
 
 }  // namespace
@@ -113,12 +111,13 @@ Trace read_trace(LineReader& lines) {
         if (fields.size() != header.fields) {
             lines.fail("found " + std::to_string(fields.size()) + " fields, expected " + std::to_string(header.fields));
         }
-        TraceRow row = parse_row(header, fields, lines);
-        if (!trace.rows.empty() && row.frame <= trace.rows.back().frame) {
-            lines.fail("found frame " + std::to_string(row.frame) + ", expected one after " +
-                       std::to_string(trace.rows.back().frame));
+        const bool is_first = trace.rows.empty();
+        TraceRow& row = trace.rows.emplace_back();
+        parse_row(header, fields, lines, row);
+        const std::int64_t before = is_first ? -1 : (&row - 1)->frame;
+        if (row.frame <= before) {
+            lines.fail("found frame " + std::to_string(row.frame) + ", expected one after " + std::to_string(before));
         }
-        trace.rows.push_back(std::move(row));
     }
     return trace;
 }

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <functional>
 
+#include "sfsm/trace_columns.h"
 #include "tests/recordings/tables.h"
 
 namespace sfsm {
@@ -335,7 +336,8 @@ TEST(Formats, OurOwnTraces) {
         EXPECT_EQ(recording.streams.at(0).frames, 4);
         EXPECT_NEAR(recording.streams.at(0).seconds, 0.08, 1e-12);
     }
-    EXPECT_TRUE(contains(refusal(out.str() + "1,2\n"), "r.csv:7: found 2 fields, expected 16"));
+    EXPECT_TRUE(contains(refusal(out.str() + "1,2\n"),
+                         "r.csv:7: found 2 fields, expected " + std::to_string(sfsm::trace_columns().size())));
     const Recording cut = read(out.str().substr(0, out.str().size() - 1));
     EXPECT_EQ(cut.trace.rows.size(), 3u);
     EXPECT_TRUE(has_note(cut, "line 6, the last, is cut short: left out"));
