@@ -1,5 +1,5 @@
 // One way to draw people, on the device: everything that a representation of figures/ needs here is a drawer in a file
-// of its own, and a line in figure_drawers.cpp.
+// of its own, and its function's name in figure_drawers.cpp.
 #pragma once
 
 #include <cstdint>
@@ -29,8 +29,5 @@ public:
 
 // One for each of figures::representations(), in their order.
 std::vector<std::unique_ptr<FigureDrawer>> make_figure_drawers();
-
-std::unique_ptr<FigureDrawer> make_triangle_drawer();
-std::unique_ptr<FigureDrawer> make_point_drawer();
 
 }  // namespace render::gl

@@ -1,3 +1,4 @@
+#include <array>
 #include <cassert>
 
 #include "figures/representation.h"
@@ -5,10 +6,14 @@
 
 namespace render::gl {
 
+// Each in the file of its representation.
+std::unique_ptr<FigureDrawer> make_triangle_drawer();
+std::unique_ptr<FigureDrawer> make_point_drawer();
+
 std::vector<std::unique_ptr<FigureDrawer>> make_figure_drawers() {
+    constexpr auto makers = std::to_array({make_triangle_drawer, make_point_drawer});
     std::vector<std::unique_ptr<FigureDrawer>> drawers;
-    drawers.push_back(make_triangle_drawer());
-    drawers.push_back(make_point_drawer());
+    for (const auto make : makers) drawers.push_back(make());
     assert(drawers.size() == figures::representations().size());
     return drawers;
 }
