@@ -23,9 +23,9 @@ std::vector<std::uint32_t> prefixes(std::size_t point_count) {
     return counts;
 }
 
-std::array<std::uint8_t, model::tint_count - 1> own_tint(model::Tint tint) {
-    std::array<std::uint8_t, model::tint_count - 1> shares{};
-    if (tint != model::Tint::none) shares[static_cast<std::size_t>(tint) - 1] = 255;
+std::array<std::uint8_t, model::slot_count> all_of(model::Slot slot) {
+    std::array<std::uint8_t, model::slot_count> shares{};
+    if (slot != model::no_slot) shares[std::size_t{slot} - 1] = 255;
     return shares;
 }
 
@@ -52,10 +52,10 @@ std::vector<PointLook> point_looks(const Figure& figure) {
         if (count > longest_averaged_prefix) break;
         std::uint32_t point = 0;
         for (const pointsample::PrefixLook& look : pointsample::prefix_looks(model, count))
-            looks.push_back({point++, look.color, look.tint, count <= longest_two_sided_prefix});
+            looks.push_back({point++, look.color, look.shares, count <= longest_two_sided_prefix});
     }
     for (std::uint32_t point = 0; point < model.size(); ++point)
-        looks.push_back({point, model.colors[point], own_tint(model.tints[point]), false});
+        looks.push_back({point, model.colors[point], all_of(model.slots[point]), false});
     return looks;
 }
 

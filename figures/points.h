@@ -20,10 +20,10 @@ inline constexpr Representation points{"points", false, point_levels, point_outl
 
 // What a drawer shows at one of the model's points.
 struct PointLook {
-    std::uint32_t point = 0;                                  // into the model's, and a pose's, points
-    glm::u8vec3 color{0};                                     // sRGB
-    std::array<std::uint8_t, model::tint_count - 1> tints{};  // unorm shares of each tint but none
-    bool two_sided = false;                                   // shown from behind too, even of a closed body
+    std::uint32_t point = 0;                               // into the model's, and a pose's, points
+    glm::u8vec3 color{0};                                  // sRGB
+    std::array<std::uint8_t, model::slot_count> shares{};  // of slots 1 to slot_count, unorm; the rest is no_slot's
+    bool two_sided = false;                                // shown from behind too, even of a closed body
 };
 
 // First the short prefixes, one after the other, each with the mean looks of the surface that its points stand for;

@@ -8,11 +8,9 @@
 #include <string>
 #include <vector>
 
-namespace model {
+#include "model/slot.h"
 
-// What of a person's own palette multiplies a vertex' colour. A closed set: the shaders switch on it.
-enum class Tint : std::uint8_t { none, skin, hair, shirt, trousers };
-inline constexpr int tint_count = 5;
+namespace model {
 
 // An 8-bit image, rows from the top, four bytes a texel: sRGB red, green, blue and alpha. Wraps around.
 struct Texture {
@@ -20,10 +18,10 @@ struct Texture {
     std::vector<glm::u8vec4> texels;
 };
 
-// Morph target: adds weight * offset to a run of vertices. `node` and `slot` name the animated weight.
+// Morph target: adds weight * offset to a run of vertices. `node` and `weight` name the animated weight.
 struct MorphTarget {
-    std::int32_t node = 0;  // the node of the skeleton that carries the weights
-    std::int32_t slot = 0;  // which of the node's weights
+    std::int32_t node = 0;    // the node of the skeleton that carries the weights
+    std::int32_t weight = 0;  // which of the node's weights
     float rest_weight = 0;
     std::uint32_t first_vertex = 0;
     std::vector<glm::vec3> position_offsets;  // for vertices first_vertex ...
@@ -34,11 +32,11 @@ inline constexpr std::uint8_t no_texture = 255;
 
 // Structure of arrays, one element a vertex unless it says otherwise. All arrays are always filled.
 struct Mesh {
-    std::vector<glm::vec3> positions;  // [file's units], in bind space
-    std::vector<glm::vec3> normals;    // unit, outward
-    std::vector<glm::vec2> uvs;        // top-left origin, wraps
-    std::vector<glm::u8vec4> colors;   // base colour factor x vertex colour, sRGB-encoded
-    std::vector<Tint> tints;
+    std::vector<glm::vec3> positions;       // [file's units], in bind space
+    std::vector<glm::vec3> normals;         // unit, outward
+    std::vector<glm::vec2> uvs;             // top-left origin, wraps
+    std::vector<glm::u8vec4> colors;        // base colour factor x vertex colour, sRGB-encoded
+    std::vector<Slot> slots;                // of the person's colours (slot.h)
     std::vector<std::uint8_t> texture_ids;  // into textures, or no_texture
     std::vector<glm::u16vec4> joints;       // into Skeleton::palette; unused ones have weight 0
     std::vector<glm::vec4> weights;         // >= 0, sum 1

@@ -122,7 +122,7 @@ void apply_morph_weights(const model::Channel& channel, double time, const std::
     if (reader.empty()) return;
     const Segment segment = reader.segment(time);
     for (std::size_t i = 0; i < morphs.size(); ++i) {
-        const std::size_t slot = static_cast<std::size_t>(morphs[i].slot);
+        const std::size_t slot = static_cast<std::size_t>(morphs[i].weight);
         if (morphs[i].node == channel.node && slot < slots) weights[i] = reader.interpolate(segment, slot);
     }
 }

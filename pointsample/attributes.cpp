@@ -122,7 +122,7 @@ void describe(const Mesh& mesh, const PosedMesh& pose, PointModel& model) {
     model.positions.resize(count);
     model.normals.resize(count);
     model.colors.resize(count);
-    model.tints.resize(count);
+    model.slots.resize(count);
     model.joints.resize(count);
     model.weights.resize(count);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1024), [&](const auto& range) {
@@ -131,7 +131,7 @@ void describe(const Mesh& mesh, const PosedMesh& pose, PointModel& model) {
             model.positions[i] = place_of(model.surface[i], mesh.indices, pose).position;
             model.normals[i] = normal_of(corners, pose);
             model.colors[i] = color_of(mesh, corners);
-            model.tints[i] = mesh.tints[corners.nearest()];
+            model.slots[i] = mesh.slots[corners.nearest()];
             const Influences influences = influences_of(mesh, corners);
             model.joints[i] = influences.joints;
             model.weights[i] = influences.weights;

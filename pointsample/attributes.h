@@ -7,8 +7,8 @@
 
 namespace pointsample {
 
-// Fills positions, normals, colours, tints, joints and weights of the model's surface points: positions and normals are
-// the pose's, colours are texture times vertex colour in linear light, a tint is the nearest corner's, and influences
+// Fills positions, normals, colours, slots, joints and weights of the model's surface points: positions and normals are
+// the pose's, colours are texture times vertex colour in linear light, a slot is the nearest corner's, and influences
 // are the four heaviest of the corners' together. In parallel; each point depends on itself alone.
 void describe(const model::Mesh& mesh, const PosedMesh& pose, PointModel& model);
 

@@ -57,7 +57,7 @@ std::string model_key(const model::Mesh& mesh, std::span<const PosedMesh> poses,
     hasher.add(mesh.indices);
     hasher.add(mesh.uvs);
     hasher.add(mesh.colors);
-    hasher.add(mesh.tints);
+    hasher.add(mesh.slots);
     hasher.add(mesh.texture_ids);
     hasher.add(mesh.joints);
     hasher.add(mesh.weights);

@@ -26,7 +26,7 @@ struct PointModel {
     std::vector<glm::vec3> positions;           // of the pose they are given in
     std::vector<glm::vec3> normals;             // unit; interpolated from the vertices
     std::vector<glm::u8vec4> colors;            // vertex colour x texture, sRGB-encoded
-    std::vector<model::Tint> tints;
+    std::vector<model::Slot> slots;
     std::vector<glm::u16vec4> joints;  // the four heaviest of the triangle's
     std::vector<glm::vec4> weights;    // >= 0, sum 1
     // [units] From each point to the nearest before it, in the pose in which the surface there is stretched most; twice

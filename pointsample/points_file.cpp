@@ -122,7 +122,7 @@ PackedPoint packed(const PointModel& model, std::size_t i, const motion::Bounds&
             color.r,
             color.g,
             color.b,
-            static_cast<std::uint8_t>(model.tints[i])};
+            model.slots[i]};
 }
 
 PointsHeader header_for(const PointModel& model, const motion::Bounds& box, std::size_t key_bytes,
@@ -204,8 +204,8 @@ void PointsFile::check_values() const {
     if (!(header.area >= 0.0f) || !std::isfinite(header.area)) fail("no area", "a number from 0");
     for (const PackedPoint& point : points()) {
         if (point.normal_u == -128 || point.normal_v == -128) fail("a normal beyond -1", "-127 to 127");
-        if (point.tint >= model::tint_count)
-            fail("tint " + std::to_string(point.tint), "below " + std::to_string(model::tint_count));
+        if (point.slot > model::slot_count)
+            fail("slot " + std::to_string(point.slot), "at most " + std::to_string(model::slot_count));
     }
     for (const Barycentrics& uv : section_of<Barycentrics>(bytes_, uv_section))
         if (std::uint32_t{uv[0]} + uv[1] > model::unorm_steps)
@@ -246,7 +246,7 @@ PointModel PointsFile::unpack() const {
         model.positions.push_back(position_of(point, whole));
         model.normals.push_back(motion::unpack_normal(motion::OctahedralNormal{point.normal_u, point.normal_v}));
         model.colors.emplace_back(point.red, point.green, point.blue, alphas[i]);
-        model.tints.push_back(static_cast<model::Tint>(point.tint));
+        model.slots.push_back(point.slot);
     }
     for (const Joints& joints : section_of<Joints>(bytes_, joint_section))
         model.joints.emplace_back(joints[0], joints[1], joints[2], joints[3]);
@@ -279,7 +279,7 @@ void write_pts(std::ostream& out, const PointModel& model, const std::string& ke
     const std::size_t count = model.size();
     assert(key.size() <= most_key_bytes);
     assert(model.surface.size() == count && model.normals.size() == count && model.colors.size() == count &&
-           model.tints.size() == count && model.joints.size() == count && model.weights.size() == count &&
+           model.slots.size() == count && model.joints.size() == count && model.weights.size() == count &&
            model.spacing.size() == count);
     const motion::Bounds box = box_of(model);
     const PointsLayout layout = layout_of(count, model.coverage.size(), key.size());

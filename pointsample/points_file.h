@@ -18,7 +18,7 @@ struct PackedPoint {
     std::uint16_t x, y, z;           // unorm over the file's box
     std::int8_t normal_u, normal_v;  // octahedral, snorm
     std::uint8_t red, green, blue;   // sRGB-encoded
-    std::uint8_t tint;               // model::Tint
+    model::Slot slot;
 };
 static_assert(sizeof(PackedPoint) == 12);
 

@@ -23,8 +23,8 @@ std::size_t nearest(const PointModel& model, std::size_t point, std::size_t coun
 }
 
 struct Sum {
-    glm::vec3 light{0.0f};  // the shaders' linear: sRGB squared, each in [0, 1]
-    std::array<float, model::tint_count> tint{};
+    glm::vec3 light{0.0f};                             // the shaders' linear: sRGB squared, each in [0, 1]
+    std::array<float, 1 + model::slot_count> slots{};  // points of each, no_slot first
     float points = 0;
 };
 
@@ -35,7 +35,7 @@ std::uint8_t unorm8(float value) {
 PrefixLook mean(const Sum& sum) {
     const glm::vec3 color = glm::sqrt(sum.light / sum.points);
     PrefixLook look{{unorm8(color.r), unorm8(color.g), unorm8(color.b), 255}, {}};
-    for (std::size_t t = 0; t < look.tint.size(); ++t) look.tint[t] = unorm8(sum.tint[t + 1] / sum.points);
+    for (std::size_t i = 0; i < look.shares.size(); ++i) look.shares[i] = unorm8(sum.slots[i + 1] / sum.points);
     return look;
 }
 
@@ -48,7 +48,7 @@ std::vector<PrefixLook> prefix_looks(const PointModel& model, std::size_t count)
         Sum& sum = sums[point < count ? point : nearest(model, point, count)];
         const glm::vec3 color = glm::vec3(model.colors[point]) / 255.0f;
         sum.light += color * color;
-        sum.tint[static_cast<std::size_t>(model.tints[point])] += 1.0f;
+        sum.slots[model.slots[point]] += 1.0f;
         sum.points += 1.0f;
     }
     std::vector<PrefixLook> looks;

@@ -14,8 +14,8 @@ namespace pointsample {
 
 // The mean over the part of the surface that is nearest to one point of the prefix.
 struct PrefixLook {
-    glm::u8vec4 color;                                     // of the light, sRGB-encoded
-    std::array<std::uint8_t, model::tint_count - 1> tint;  // share of each tint but none, unorm; the rest is none
+    glm::u8vec4 color;                                   // of the light, sRGB-encoded
+    std::array<std::uint8_t, model::slot_count> shares;  // of slots 1 to slot_count, unorm; the rest is no_slot's
 };
 
 // One element for each of the first `count` points, as if there were no others; count in [1, model.size()].

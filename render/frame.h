@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "render/view.h"
-#include "scene/crowd.h"
+#include "scene/palette.h"
 #include "sfsm/decision.h"
 
 namespace render {
@@ -18,7 +18,7 @@ struct Instance {
     std::int16_t sin_yaw, cos_yaw;  // snorm
     scene::Palette palette;
 };
-static_assert(sizeof(Instance) == 36);
+static_assert(sizeof(Instance) == 20 + 4 * model::slot_count);
 
 // People of one character in one pose, drawn alike.
 struct Batch {

@@ -11,6 +11,7 @@
 
 #include "motion/pose.h"
 #include "motion/pose_table.h"
+#include "scene/palette.h"
 #include "scene/path.h"
 
 namespace scene {
@@ -34,11 +35,6 @@ struct CastMember {
     Acts acts[role_count];
     bool sits = false;  // the spectator clips are seated ones; else spectators stand in front of their seat
     float gait_speed[role_count] = {};  // [m/s] at person height 1.75 m, of walkers and runners
-};
-
-// Colours of one person, sRGB, in the order of model::Tint's skin, hair, shirt, trousers.
-struct Palette {
-    glm::u8vec4 skin, hair, shirt, trousers;
 };
 
 struct CrowdBlock {

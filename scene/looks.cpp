@@ -4,6 +4,7 @@
 #include <array>
 #include <numbers>
 
+#include "scene/person.h"
 #include "sfsm/random.h"
 
 namespace scene {
@@ -49,17 +50,17 @@ Palette dress(Fans fans, std::uint64_t bits) {
     constexpr std::uint32_t skin_count = static_cast<std::uint32_t>(skins.size());
     const std::uint32_t skin = std::min(below(next(), skin_count), below(next(), skin_count));
     const std::uint32_t hair = below(next(), skin < fair_skins ? static_cast<std::uint32_t>(hairs.size()) : dark_hairs);
-    palette.skin = skins[skin];
-    palette.hair = hairs[hair];
+    palette[skin_slot] = skins[skin];
+    palette[hair_slot] = hairs[hair];
     const float team = upper_unit(next());
     if (team < fans.home) {
-        palette.shirt = pick(home_shirts, next());
+        palette[shirt_slot] = pick(home_shirts, next());
     } else if (team < fans.home + fans.away) {
-        palette.shirt = pick(away_shirts, next());
+        palette[shirt_slot] = pick(away_shirts, next());
     } else {
-        palette.shirt = pick(casual_shirts, next());
+        palette[shirt_slot] = pick(casual_shirts, next());
     }
-    palette.trousers = pick(trousers, next());
+    palette[trousers_slot] = pick(trousers, next());
     return palette;
 }
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "scene/crowd.h"
+#include "scene/palette.h"
 
 namespace scene {
 

@@ -9,9 +9,12 @@ namespace scene {
 // with the clips "sit", "clap", "cheer", "wave" (spectators: 4 s each, all starting and ending in the same seated
 // pose, so that they can follow one another; the seat's surface is at y = seat_height, the hips over the origin, the
 // feet 0.37 m in front of it, which is where "cheer" stands up), and "stand" (4 s), "walk" (1 s), "run" (0.7 s; both in
-// place, one cycle = two steps, speeds below). Tints: skin, hair, shirt, trousers; shoes and eyes have their own
-// colours.
+// place, one cycle = two steps, speeds below). Shoes and eyes are in no slot.
 model::Character make_person();
+
+// What its slots are (model/slot.h).
+inline constexpr model::Slot skin_slot = 1, hair_slot = 2, shirt_slot = 3, trousers_slot = 4;
+static_assert(trousers_slot <= model::slot_count);
 
 inline constexpr float seat_height = 0.45f;  // [m]
 inline constexpr float walk_speed = 1.4f;    // [m/s] at 1.75 m: feet don't slide

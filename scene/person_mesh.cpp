@@ -7,13 +7,14 @@
 #include <span>
 #include <vector>
 
+#include "scene/person.h"
 #include "scene/person_rig.h"
 
 namespace scene {
 namespace {
 
 using model::Mesh;
-using model::Tint;
+using model::Slot;
 
 // One cross-section of a part: a superellipse around the part's axis, and how it follows the skeleton.
 struct Ring {
@@ -25,7 +26,7 @@ struct Ring {
     double squareness;      // exponent of the superellipse: 2 = ellipse, more = boxier
     Joint a, b;             // the joints it follows ...
     double share_of_b;      // ... and how they divide it
-    Tint tint;              // of the strip from here to the next ring
+    Slot slot;              // of the strip from here to the next ring
     double shade;           // baked ambient light, (0, 1]
     double front = 0;       // [m] pushes the foremost vertex out: nose and chin
     Joint side = hips;      // left joint that pulls at the ring's left, and its mirror image at the right ...
@@ -44,14 +45,14 @@ struct Part {
     std::span<const Ring> rings;
     int segments;
     Side side = Side::middle;          // tables are for the left, or for parts that have both
-    glm::u8vec3 color{255, 255, 255};  // where the tint carries none
+    glm::u8vec3 color{255, 255, 255};  // of what is in no slot
 };
 
 // The vertices of one ring, in order.
 using Loop = std::vector<std::uint32_t>;
 
-constexpr Tint skin = Tint::skin, shirt = Tint::shirt, trousers = Tint::trousers, hair = Tint::hair;
-constexpr Tint shoe = Tint::none;
+constexpr Slot skin = skin_slot, shirt = shirt_slot, trousers = trousers_slot, hair = hair_slot;
+constexpr Slot shoe = model::no_slot, eye = model::no_slot;
 constexpr glm::u8vec3 shoe_color{46, 44, 50};
 constexpr glm::u8vec3 eye_color{40, 28, 24};
 
@@ -88,8 +89,8 @@ constexpr Ring head_rings[] = {
 
 // The left eye, from inside the skull forward.
 constexpr Ring eye_rings[] = {
-    {0.000, 0.000, 0.013, 0.008, 0, 2.0, head, head, 0.0, Tint::none, 1.00},
-    {0.020, 0.000, 0.012, 0.008, 0, 2.0, head, head, 0.0, Tint::none, 1.00},
+    {0.000, 0.000, 0.013, 0.008, 0, 2.0, head, head, 0.0, eye, 1.00},
+    {0.020, 0.000, 0.012, 0.008, 0, 2.0, head, head, 0.0, eye, 1.00},
 };
 
 // The left ear, from inside the skull outward; front = down, where it is narrow.
@@ -193,7 +194,7 @@ void add_influences(Mesh& mesh, const Part& part, const Ring& ring, double x) {
     add_influence(mesh, 2, x > 0.0 ? ring.side : mirrored(ring.side), side);
 }
 
-void add_vertex(Mesh& mesh, const Part& part, const Ring& ring, Tint tint, int k) {
+void add_vertex(Mesh& mesh, const Part& part, const Ring& ring, Slot slot, int k) {
     const Frame& f = part.frame;
     const double tilt = ring.tilt * std::numbers::pi / 180.0;
     const glm::dvec3 front = std::cos(tilt) * f.front + std::sin(tilt) * f.axis;
@@ -201,17 +202,17 @@ void add_vertex(Mesh& mesh, const Part& part, const Ring& ring, Tint tint, int k
     const double depth = unit.y * ring.half_depth + (k == 0 ? ring.front : 0.0);
     const glm::dvec3 centre = f.origin + ring.along * f.axis + ring.offset * f.front;
     mesh.positions.emplace_back(centre + unit.x * ring.half_width * f.side + depth * front);
-    const glm::dvec3 color = tint == Tint::none ? glm::dvec3(part.color) : glm::dvec3(255.0);
+    const glm::dvec3 color = slot == model::no_slot ? glm::dvec3(part.color) : glm::dvec3(255.0);
     mesh.colors.emplace_back(glm::u8vec3(color * ring.shade + 0.5), std::uint8_t{255});
-    mesh.tints.push_back(tint);
+    mesh.slots.push_back(slot);
     add_influences(mesh, part, ring, unit.x);
 }
 
-Loop add_ring(Mesh& mesh, const Part& part, const Ring& ring, Tint tint) {
+Loop add_ring(Mesh& mesh, const Part& part, const Ring& ring, Slot slot) {
     Loop loop;
     for (int k = 0; k < part.segments; ++k) {
         loop.push_back(static_cast<std::uint32_t>(mesh.vertex_count()));
-        add_vertex(mesh, part, ring, tint, k);
+        add_vertex(mesh, part, ring, slot, k);
     }
     return loop;
 }
@@ -243,12 +244,12 @@ struct Band {
     Loop lower, upper;
 };
 
-// Every ring of a part, twice where two tints meet.
+// Every ring of a part, twice where two slots meet.
 std::vector<Band> add_rings(Mesh& mesh, const Part& part) {
     std::vector<Band> bands;
-    Loop lower = add_ring(mesh, part, part.rings[0], part.rings[0].tint);
+    Loop lower = add_ring(mesh, part, part.rings[0], part.rings[0].slot);
     for (std::size_t i = 1; i < part.rings.size(); ++i) {
-        const Tint below = part.rings[i - 1].tint, above = part.rings[i].tint;
+        const Slot below = part.rings[i - 1].slot, above = part.rings[i].slot;
         const Loop upper = add_ring(mesh, part, part.rings[i], below);
         bands.push_back({lower, upper});
         lower = above == below ? upper : add_ring(mesh, part, part.rings[i], above);
@@ -396,7 +397,7 @@ void drop_unused_vertices(Mesh& mesh) {
         if (!used[v]) continue;
         mesh.positions[kept] = mesh.positions[v];
         mesh.colors[kept] = mesh.colors[v];
-        mesh.tints[kept] = mesh.tints[v];
+        mesh.slots[kept] = mesh.slots[v];
         mesh.joints[kept] = mesh.joints[v];
         mesh.weights[kept] = mesh.weights[v];
         moved_to[v] = kept++;
@@ -404,7 +405,7 @@ void drop_unused_vertices(Mesh& mesh) {
     for (std::uint32_t& index : mesh.indices) index = moved_to[index];
     mesh.positions.resize(kept);
     mesh.colors.resize(kept);
-    mesh.tints.resize(kept);
+    mesh.slots.resize(kept);
     mesh.joints.resize(kept);
     mesh.weights.resize(kept);
 }

@@ -20,24 +20,29 @@ using mat4 = glm::mat4;
     name;
 #endif
 
+// Slots come four a vector, the last filled up with 0.
+CONSTANT slot_count = 4;  // model::slot_count
+CONSTANT slot_vectors = (slot_count + 3) / 4;
+
 // Vertex attributes of people: baked vertices, then the instance.
 CONSTANT attribute_position = 0;   // unorm 16 x 3 over the character's box
 CONSTANT attribute_normal = 1;     // snorm 8 x 2, octahedral
 CONSTANT attribute_color = 2;      // unorm 8 x 3, sRGB
-CONSTANT attribute_look = 3;       // uint 8: tint in the low 3 bits, texture layer above, no_layer = none; of points:
+CONSTANT attribute_look = 3;       // uint 8: slot in the low 3 bits, texture layer above, no_layer = none; of points:
                                    // 1 = stands for both sides of the body, seen from everywhere
-CONSTANT attribute_uv = 4;         // of vertices: half x 2
-CONSTANT attribute_shares = 4;     // of points: unorm 8 x 4, shares of the palette
-CONSTANT attribute_placement = 5;  // camera-relative position [m], scale
-CONSTANT attribute_turn = 6;       // snorm 16 x 2: sin, cos of the yaw
-CONSTANT attribute_palette = 7;    // uint 32 x 4: sRGB of skin, hair, shirt, trousers
+CONSTANT attribute_placement = 4;  // camera-relative position [m], scale
+CONSTANT attribute_turn = 5;       // snorm 16 x 2: sin, cos of the yaw
+CONSTANT attribute_palette = 6;    // slot_vectors of uint 32 x 4: sRGB of slots 1 to slot_count
+// Behind it: of vertices uv, half x 2; of points slot_vectors of unorm 8 x 4, shares of slots 1 to slot_count.
+CONSTANT attribute_uv = attribute_palette + slot_vectors;
+CONSTANT attribute_shares = attribute_palette + slot_vectors;
 
 // Vertex attributes of the structure.
 CONSTANT attribute_static_position = 0;
 CONSTANT attribute_static_normal = 1;
 CONSTANT attribute_static_color = 2;  // alpha: scene::Surface
 
-CONSTANT look_tint_bits = 3;
+CONSTANT look_slot_bits = 3;
 CONSTANT no_layer = 31;
 CONSTANT texture_unit_layers = 0;
 

@@ -7,7 +7,7 @@ layout(location = attribute_color) in vec3 vertex_color;
 layout(location = attribute_look) in uint look;
 layout(location = attribute_placement) in vec4 placement;
 layout(location = attribute_turn) in vec2 turn;
-layout(location = attribute_palette) in uvec4 palette;
+layout(location = attribute_palette) in uvec4 palette[slot_vectors];
 
 vec3 unfold(vec2 e) {
     vec3 n = vec3(e, 1.0 - abs(e.x) - abs(e.y));
@@ -22,7 +22,8 @@ vec3 turned(vec3 v) { return vec3(turn.y * v.x + turn.x * v.z, v.y, turn.y * v.z
 // sRGB is near enough to a square for light: one multiplication each way.
 vec3 linear(vec3 srgb) { return srgb * srgb; }
 
-vec3 palette_color(int slot) { return linear(unpackUnorm4x8(palette[slot]).rgb); }
+// Of a slot from 1 on.
+vec3 palette_color(int slot) { return linear(unpackUnorm4x8(palette[(slot - 1) / 4][(slot - 1) % 4]).rgb); }
 
 // Camera-relative [m].
 vec3 placed_position() {

@@ -1,13 +1,17 @@
 // One splat of a person.
 #include "person.glsl"
-layout(location = attribute_shares) in vec4 shares;
+layout(location = attribute_shares) in vec4 shares[slot_vectors];
 flat out vec3 splat_color;
+
+float share_of(int slot) { return shares[(slot - 1) / 4][(slot - 1) % 4]; }
 
 // What the person's own palette makes of the point's colour.
 vec3 tint() {
-    float untinted = 1.0 - dot(shares, vec4(1.0));
-    return vec3(untinted) + shares.x * palette_color(0) + shares.y * palette_color(1) + shares.z * palette_color(2) +
-           shares.w * palette_color(3);
+    float untinted = 1.0;
+    for (int i = 0; i < slot_vectors; ++i) untinted -= dot(shares[i], vec4(1.0));
+    vec3 sum = vec3(untinted);
+    for (int slot = 1; slot <= slot_count; ++slot) sum += share_of(slot) * palette_color(slot);
+    return sum;
 }
 
 void main() {

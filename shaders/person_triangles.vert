@@ -10,8 +10,8 @@ out vec3 light;
 
 // What the person's own palette makes of the vertex' colour.
 vec3 tint() {
-    int slot = int(look & ((1u << look_tint_bits) - 1u));
-    return slot == 0 ? vec3(1.0) : palette_color(slot - 1);
+    int slot = int(look & ((1u << look_slot_bits) - 1u));
+    return slot == 0 ? vec3(1.0) : palette_color(slot);
 }
 
 void main() {
@@ -23,6 +23,6 @@ void main() {
     light = lit(away && is_double_sided() ? -normal : normal);
 #ifdef TEXTURED
     texture_uv = uv;
-    texture_layer = int(look >> look_tint_bits);
+    texture_layer = int(look >> look_slot_bits);
 #endif
 }

@@ -195,7 +195,7 @@ public:
         for (std::size_t slot = 0; slot < primitive_.targets.size(); ++slot) {
             MorphTarget morph;
             morph.node = node;
-            morph.slot = static_cast<std::int32_t>(slot);
+            morph.weight = static_cast<std::int32_t>(slot);
             morph.rest_weight = slot < rest_weights.size() ? static_cast<float>(rest_weights[slot]) : 0.0f;
             if (!std::isfinite(morph.rest_weight)) fail("a morph weight that is not finite", "numbers");
             morph.first_vertex = static_cast<std::uint32_t>(first_);
@@ -244,7 +244,7 @@ private:
             mesh_.colors.emplace_back(srgb_of_linear(factor.r), srgb_of_linear(factor.g), srgb_of_linear(factor.b),
                                       unit_byte(factor.a));
         }
-        mesh_.tints.resize(mesh_.positions.size(), Tint::none);
+        mesh_.slots.resize(mesh_.positions.size(), no_slot);
         mesh_.texture_ids.resize(mesh_.positions.size(), uvs ? look.texture : no_texture);
         mesh_.double_sided |= look.double_sided;
     }

@@ -18,7 +18,7 @@ Character statue_of(Mesh mesh, const std::string& name) {
     const std::size_t count = mesh.vertex_count();
     mesh.uvs.resize(count, glm::vec2(0.0f));
     mesh.colors.resize(count, glm::u8vec4(255));
-    mesh.tints.resize(count, Tint::none);
+    mesh.slots.resize(count, no_slot);
     mesh.texture_ids.resize(count, no_texture);
     mesh.joints.resize(count, glm::u16vec4(0));
     mesh.weights.resize(count, glm::vec4(1, 0, 0, 0));

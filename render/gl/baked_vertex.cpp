@@ -1,8 +1,9 @@
 #include "render/gl/baked_vertex.h"
 
+#include <algorithm>
+
 #include "render/frame.h"
 #include "render/gl/upload.h"
-#include "shaders/layout.h"
 
 namespace render::gl {
 
@@ -42,11 +43,15 @@ VertexArray make_person_array(const Buffer& vertices, const Buffer& instances, E
     add_integer(a, attribute_look, 1, GL_UNSIGNED_BYTE, offsetof(BakedVertex, look), vertex_binding);
     add_float(a, attribute_placement, 4, GL_FLOAT, false, offsetof(Instance, position), instance_binding);
     add_float(a, attribute_turn, 2, GL_SHORT, true, offsetof(Instance, sin_yaw), instance_binding);
-    add_integer(a, attribute_palette, 4, GL_UNSIGNED_INT, offsetof(Instance, palette), instance_binding);
+    for (int i = 0; i < slot_vectors; ++i)
+        add_integer(a, attribute_palette + i, std::min(4, slot_count - 4 * i), GL_UNSIGNED_INT,
+                    offsetof(Instance, palette) + i * sizeof(glm::uvec4), instance_binding);
     if (extra == Extra::uv)
         add_float(a, attribute_uv, 2, GL_HALF_FLOAT, false, offsetof(BakedVertex, extra), vertex_binding);
     if (extra == Extra::shares)
-        add_float(a, attribute_shares, 4, GL_UNSIGNED_BYTE, true, offsetof(BakedVertex, extra), vertex_binding);
+        for (int i = 0; i < slot_vectors; ++i)
+            add_float(a, attribute_shares + i, 4, GL_UNSIGNED_BYTE, true,
+                      offsetof(BakedVertex, extra) + i * sizeof(glm::u8vec4), vertex_binding);
     return array;
 }
 

@@ -2,12 +2,14 @@
 // draw shifts all attributes alike, so what doesn't change with the pose is repeated for each.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
 
 #include "motion/pose_table.h"
 #include "render/gl/objects.h"
+#include "shaders/layout.h"
 
 namespace render::gl {
 
@@ -15,9 +17,10 @@ struct BakedVertex {
     motion::PosedVertex posed;
     std::uint8_t red, green, blue;  // sRGB
     std::uint8_t look;              // shaders/layout.h's attribute_look
-    std::uint32_t extra;            // of vertices: uv, half x 2; of points: shares of the palette, unorm 8 x 4
+    // Of vertices: uv, half x 2; of points: shares of slots, unorm 8 x 4 each.
+    std::array<std::uint32_t, slot_vectors> extra;
 };
-static_assert(sizeof(BakedVertex) == 16);
+static_assert(sizeof(BakedVertex) == 12 + 4 * slot_vectors);
 
 // What is drawn of every pose: one of its vertices or points, with its looks.
 struct Record {

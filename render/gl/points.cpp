@@ -1,7 +1,7 @@
 // figures/points.h by GL's own points.
 #include "figures/points.h"
 
-#include <bit>
+#include <cstring>
 
 #include "render/gl/baked_vertex.h"
 #include "render/gl/figure_drawer.h"
@@ -21,10 +21,11 @@ struct Objects {
 
 std::vector<Record> records_of(const figures::Figure& figure) {
     std::vector<Record> records;
-    for (const figures::PointLook& look : figures::point_looks(figure))
-        records.push_back(
-            {look.point,
-             {{}, look.color.r, look.color.g, look.color.b, look.two_sided, std::bit_cast<std::uint32_t>(look.tints)}});
+    for (const figures::PointLook& look : figures::point_looks(figure)) {
+        Record& record = records.emplace_back(
+            Record{look.point, {{}, look.color.r, look.color.g, look.color.b, look.two_sided, {}}});
+        std::memcpy(record.look.extra.data(), look.shares.data(), look.shares.size());
+    }
     return records;
 }
 

@@ -12,6 +12,8 @@ namespace render::gl {
 
 namespace {
 
+static_assert(slot_count == model::slot_count && slot_count < 1 << look_slot_bits);
+
 struct Objects {
     Buffer vertices, indices;
     VertexArray array;
@@ -20,8 +22,8 @@ struct Objects {
     bool double_sided = false, textured = false;
 };
 
-std::uint8_t look_of(model::Tint tint, std::uint8_t layer) {
-    return static_cast<std::uint8_t>(static_cast<unsigned>(tint) | (static_cast<unsigned>(layer) << look_tint_bits));
+std::uint8_t look_of(model::Slot slot, std::uint8_t layer) {
+    return static_cast<std::uint8_t>(static_cast<unsigned>(slot) | (static_cast<unsigned>(layer) << look_slot_bits));
 }
 
 std::vector<Record> records_of(const model::Mesh& mesh) {
@@ -30,7 +32,7 @@ std::vector<Record> records_of(const model::Mesh& mesh) {
         const glm::u8vec4 color = mesh.colors[v];
         const std::uint8_t layer = mesh.texture_ids[v] == model::no_texture ? no_layer : mesh.texture_ids[v];
         records.push_back(
-            {v, {{}, color.r, color.g, color.b, look_of(mesh.tints[v], layer), glm::packHalf2x16(mesh.uvs[v])}});
+            {v, {{}, color.r, color.g, color.b, look_of(mesh.slots[v], layer), {glm::packHalf2x16(mesh.uvs[v])}}});
     }
     return records;
 }

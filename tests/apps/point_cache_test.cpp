@@ -37,7 +37,7 @@ bool same(const PointModel& a, const PointModel& b) {
         return p.triangle == q.triangle && p.u == q.u && p.v == q.v;
     };
     return std::equal(a.surface.begin(), a.surface.end(), b.surface.begin(), b.surface.end(), same_place) &&
-           a.positions == b.positions && a.normals == b.normals && a.colors == b.colors && a.tints == b.tints &&
+           a.positions == b.positions && a.normals == b.normals && a.colors == b.colors && a.slots == b.slots &&
            a.joints == b.joints && a.weights == b.weights && a.spacing == b.spacing && a.area == b.area;
 }
 

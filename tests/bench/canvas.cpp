@@ -90,7 +90,7 @@ glm::vec3 Canvas::surface_color(const Subject& subject, std::size_t triangle, co
         return shares.x * value_of(corners[0]) + shares.y * value_of(corners[1]) + shares.z * value_of(corners[2]);
     };
     glm::vec3 color = mixed([&](std::uint32_t vertex) {
-        return linear(mesh.colors[vertex]) * linear(subject.palette[static_cast<std::size_t>(mesh.tints[vertex])]);
+        return linear(mesh.colors[vertex]) * linear(subject.palette[mesh.slots[vertex]]);
     });
     if (const std::uint8_t texture = mesh.texture_ids[corners[0]]; texture != model::no_texture)
         color *= texture_color(mesh.textures[texture], mixed([&](std::uint32_t vertex) { return mesh.uvs[vertex]; }));
@@ -125,9 +125,8 @@ void Canvas::draw_points(const Subject& subject, const pointsample::PointModel& 
     const float reach = radius * view_.pixels_per_unit * samples_per_side;
     for (std::size_t i = 0; i < count; ++i) {
         const glm::vec3 at = to_samples(model.positions[i]);
-        const glm::vec3 color =
-            lit(linear(model.colors[i]) * linear(subject.palette[static_cast<std::size_t>(model.tints[i])]),
-                model.normals[i], subject.character.mesh.double_sided);
+        const glm::vec3 color = lit(linear(model.colors[i]) * linear(subject.palette[model.slots[i]]), model.normals[i],
+                                    subject.character.mesh.double_sided);
         const int last_x = std::min(static_cast<int>(std::floor(at.x + reach)), width_ - 1);
         const int last_y = std::min(static_cast<int>(std::floor(at.y + reach)), height_ - 1);
         for (int y = std::max(static_cast<int>(std::floor(at.y - reach)), 0); y <= last_y; ++y) {

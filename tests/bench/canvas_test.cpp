@@ -46,7 +46,7 @@ TEST(Canvas, DiscsAsWideAsTheCoveringRadiusLeaveNoHole) {
     model.positions = bench::random_spots(subject.character.mesh, subject.pose.positions, 300, 1).positions;
     model.normals = model.positions;
     model.colors.resize(300, glm::u8vec4(0, 0, 0, 255));
-    model.tints.resize(300, model::Tint::none);
+    model.slots.resize(300, model::no_slot);
     const std::vector<glm::vec3> spots =
         bench::random_spots(subject.character.mesh, subject.pose.positions, 50'000, 2).positions;
     const double between_spots = 0.02;  // they are so far from one another

@@ -14,8 +14,8 @@ namespace bench {
 struct Subject {
     model::Character character;
     pointsample::PosedMesh pose;
-    motion::Bounds bounds;                                 // of the pose: [character's units]
-    std::array<glm::u8vec4, model::tint_count> palette{};  // by Tint; sRGB-encoded
+    motion::Bounds bounds;                                     // of the pose: [character's units]
+    std::array<glm::u8vec4, 1 + model::slot_count> palette{};  // by slot, no_slot white; sRGB-encoded
 
     float height() const { return bounds.size().y; }
 };

@@ -14,7 +14,7 @@ int main() {
     const std::size_t vertices = mesh.positions.size();
     mesh.uvs.resize(vertices);
     mesh.colors.resize(vertices, glm::u8vec4(255));
-    mesh.tints.resize(vertices, model::Tint::none);
+    mesh.slots.resize(vertices, model::no_slot);
     mesh.texture_ids.resize(vertices, model::no_texture);
     mesh.joints.resize(vertices);
     mesh.weights.resize(vertices, {1, 0, 0, 0});

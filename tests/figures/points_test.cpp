@@ -46,7 +46,7 @@ TEST(PointLevels, BeginWhereTheirLooksAre) {
             EXPECT_EQ(look.color, color) << level.count << " points";
             EXPECT_EQ(look.two_sided, level.count <= 8);
             if (averaged) {
-                EXPECT_EQ(look.tints, means[i].tint);
+                EXPECT_EQ(look.shares, means[i].shares);
             }
         }
     }

@@ -93,7 +93,7 @@ void expect_sane(const model::Character& character) {
     const model::Mesh& mesh = character.mesh;
     const std::size_t count = mesh.vertex_count();
     ASSERT_GT(mesh.triangle_count(), 0u);
-    for (const std::size_t size : {mesh.normals.size(), mesh.uvs.size(), mesh.colors.size(), mesh.tints.size(),
+    for (const std::size_t size : {mesh.normals.size(), mesh.uvs.size(), mesh.colors.size(), mesh.slots.size(),
                                    mesh.texture_ids.size(), mesh.joints.size(), mesh.weights.size()})
         ASSERT_EQ(size, count);
     for (const std::uint32_t index : mesh.indices) ASSERT_LT(index, count);

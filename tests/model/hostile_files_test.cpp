@@ -66,7 +66,7 @@ void use(const std::filesystem::path& path) {
     const model::Mesh& mesh = character.mesh;
     const std::size_t count = mesh.vertex_count();
     if (mesh.indices.empty() || mesh.indices.size() % 3 != 0) throw std::logic_error("no triangles");
-    for (const std::size_t size : {mesh.normals.size(), mesh.uvs.size(), mesh.colors.size(), mesh.tints.size(),
+    for (const std::size_t size : {mesh.normals.size(), mesh.uvs.size(), mesh.colors.size(), mesh.slots.size(),
                                    mesh.texture_ids.size(), mesh.joints.size(), mesh.weights.size()})
         if (size != count) throw std::logic_error("lists of different lengths");
     for (const std::uint32_t index : mesh.indices)

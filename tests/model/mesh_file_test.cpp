@@ -18,7 +18,7 @@ void expect_whole(const Mesh& mesh) {
     EXPECT_EQ(mesh.normals.size(), count);
     EXPECT_EQ(mesh.uvs.size(), count);
     EXPECT_EQ(mesh.colors.size(), count);
-    EXPECT_EQ(mesh.tints.size(), count);
+    EXPECT_EQ(mesh.slots.size(), count);
     EXPECT_EQ(mesh.texture_ids.size(), count);
     EXPECT_EQ(mesh.joints.size(), count);
     EXPECT_EQ(mesh.weights.size(), count);

@@ -188,8 +188,8 @@ private:
             const std::vector<double> values = vector_at(channel, time, slots);
             for (std::size_t i = 0; i < morph_weights.size(); ++i) {
                 const model::MorphTarget& morph = character_.mesh.morphs[i];
-                if (morph.node == channel.node && static_cast<std::size_t>(morph.slot) < slots)
-                    morph_weights[i] = values[static_cast<std::size_t>(morph.slot)];
+                if (morph.node == channel.node && static_cast<std::size_t>(morph.weight) < slots)
+                    morph_weights[i] = values[static_cast<std::size_t>(morph.weight)];
             }
             return;
         }

@@ -70,7 +70,7 @@ private:
         for (std::uint32_t i = 0; i + 2 < vertices; ++i) mesh.indices.insert(mesh.indices.end(), {i, i + 1, i + 2});
         mesh.uvs.resize(vertices);
         mesh.colors.resize(vertices, glm::u8vec4(255));
-        mesh.tints.resize(vertices);
+        mesh.slots.resize(vertices);
         mesh.texture_ids.resize(vertices, model::no_texture);
     }
 

@@ -127,7 +127,7 @@ TEST(Rig, WeightsOfOneNodeLeaveTheOthersAlone) {
         const model::Channel weights{node, model::Path::morph_weights, model::Interpolation::step, {0}, {7, 8, 9}};
         motion::evaluate(character, {"one", 0, {weights}}, 0, posed);
         for (std::size_t i = 0; i < mesh.morphs.size(); ++i) {
-            const float driven = weights.values[static_cast<std::size_t>(mesh.morphs[i].slot)];
+            const float driven = weights.values[static_cast<std::size_t>(mesh.morphs[i].weight)];
             EXPECT_EQ(posed.morph_weights[i], mesh.morphs[i].node == node ? driven : rest.morph_weights[i]);
         }
     }

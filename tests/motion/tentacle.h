@@ -63,7 +63,7 @@ inline void add_tube(model::Mesh& mesh, int rings, int sides, int joints, Random
     const std::size_t count = mesh.positions.size();
     mesh.uvs.resize(count);
     mesh.colors.resize(count, glm::u8vec4(255));
-    mesh.tints.resize(count);
+    mesh.slots.resize(count);
     mesh.texture_ids.resize(count, model::no_texture);
 }
 

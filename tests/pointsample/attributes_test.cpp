@@ -37,7 +37,7 @@ model::Mesh patchwork(std::size_t triangles, std::uint64_t seed) {
         mesh.normals.push_back(random.rotation() * glm::vec3(0, 0, 1));
         mesh.uvs.emplace_back(random(-2, 3), random(-2, 3));
         mesh.colors.emplace_back(byte(), byte(), byte(), byte());
-        mesh.tints.push_back(static_cast<model::Tint>(byte() % model::tint_count));
+        mesh.slots.push_back(static_cast<model::Slot>(byte() % (1 + model::slot_count)));
         const std::uint8_t textures[] = {0, 1, model::no_texture};
         mesh.texture_ids.push_back(textures[i / 3 % 3]);
         mesh.joints.emplace_back(byte() % 6, byte() % 6, byte() % 6, byte() % 6);
@@ -161,13 +161,13 @@ TEST(Attributes, ColorsAreTextureTimesVertexInLightAtThePoint) {
     }
 }
 
-TEST(Attributes, TintsAreOfTheCornerWithTheLargestShare) {
+TEST(Attributes, SlotsAreOfTheCornerWithTheLargestShare) {
     const model::Mesh mesh = patchwork(60, 3);
     const PointModel model = described(mesh, some_pose(mesh), points_on(mesh, 20));
     for (std::size_t i = 0; i < model.surface.size(); ++i) {
         const Shares shares(mesh, model.surface[i]);
         const auto nearest = std::max_element(shares.share.begin(), shares.share.end()) - shares.share.begin();
-        ASSERT_EQ(model.tints[i], mesh.tints[shares.vertex[static_cast<std::size_t>(nearest)]]) << i;
+        ASSERT_EQ(model.slots[i], mesh.slots[shares.vertex[static_cast<std::size_t>(nearest)]]) << i;
     }
 }
 

@@ -20,7 +20,7 @@ inline pointsample::PointModel random_model(std::size_t count, std::uint64_t see
         model.positions.emplace_back(unit() - 0.5f, 1.8f * unit(), 0.3f * unit());
         model.normals.push_back(glm::normalize(glm::vec3(unit(), unit(), unit()) - 0.49f));
         model.colors.emplace_back(byte(), byte(), byte(), byte());
-        model.tints.push_back(static_cast<model::Tint>(random() % model::tint_count));
+        model.slots.push_back(static_cast<model::Slot>(random() % (1 + model::slot_count)));
         model.joints.emplace_back(random(), random(), random(), random());
         glm::vec4 weights(unit(), unit(), unit(), unit());
         for (std::size_t k = random() % 4; k > 0; --k) weights[static_cast<int>(k)] = 0;

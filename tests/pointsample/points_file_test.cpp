@@ -46,7 +46,7 @@ void expect_same_bits(const PointModel& a, const PointModel& b) {
     EXPECT_TRUE(same_bits(a.positions, b.positions));
     EXPECT_TRUE(same_bits(a.normals, b.normals));
     EXPECT_TRUE(same_bits(a.colors, b.colors));
-    EXPECT_TRUE(same_bits(a.tints, b.tints));
+    EXPECT_TRUE(same_bits(a.slots, b.slots));
     EXPECT_TRUE(same_bits(a.joints, b.joints));
     EXPECT_TRUE(same_bits(a.weights, b.weights));
     EXPECT_TRUE(same_bits(a.spacing, b.spacing));
@@ -62,7 +62,7 @@ TEST(PointsFile, WhatIsExactStaysExact) {
     ASSERT_EQ(back.size(), model.size());
     for (std::size_t i = 0; i < model.size(); ++i) ASSERT_EQ(back.surface[i].triangle, model.surface[i].triangle);
     EXPECT_EQ(back.colors, model.colors);
-    EXPECT_EQ(back.tints, model.tints);
+    EXPECT_EQ(back.slots, model.slots);
     EXPECT_EQ(back.joints, model.joints);
     EXPECT_TRUE(same_bits(back.spacing, model.spacing));
     EXPECT_TRUE(same_bits(back.coverage, model.coverage));
@@ -287,7 +287,7 @@ TEST(PointsFileRefuses, LiesWithAChecksumThatFits) {
         std::memcpy(&offset, whole.data() + 80 + 8 * index, sizeof offset);
         return static_cast<std::size_t>(offset);
     };
-    EXPECT_NE(refusal(patched(whole, section(1) + 11, std::uint8_t{model::tint_count})), "");
+    EXPECT_NE(refusal(patched(whole, section(1) + 11, model::Slot{model::slot_count + 1})), "");
     EXPECT_NE(refusal(patched(whole, section(1) + 6, std::int8_t{-128})), "");
     EXPECT_NE(refusal(patched(whole, section(3), ~std::uint32_t{0})), "");
     EXPECT_NE(refusal(patched(whole, section(5), ~std::uint32_t{0})), "");

@@ -13,11 +13,13 @@
 
 namespace {
 
-// A ball, skin above and shirt below the equator, white and black in its +x and -x halves.
+constexpr model::Slot upper = 1, lower = 3;
+
+// A ball, in one slot above and in another below the equator, white and black in its +x and -x halves.
 pointsample::PointModel two_toned_ball() {
     model::Mesh ball = tests::make_sphere(1.0f, 5);
     for (std::size_t v = 0; v < ball.vertex_count(); ++v) {
-        ball.tints[v] = ball.positions[v].y > 0 ? model::Tint::skin : model::Tint::shirt;
+        ball.slots[v] = ball.positions[v].y > 0 ? upper : lower;
         ball.colors[v] = ball.positions[v].x > 0 ? glm::u8vec4(255) : glm::u8vec4(0, 0, 0, 255);
     }
     pointsample::SampleOptions options;
@@ -27,14 +29,12 @@ pointsample::PointModel two_toned_ball() {
     return pointsample::sample(ball, {&rest, 1}, options);
 }
 
-constexpr int skin = 0, shirt = 2;  // places in PrefixLook::tint
-
 TEST(PrefixLook, OnePointShowsTheMeanOfAll) {
     const auto looks = pointsample::prefix_looks(two_toned_ball(), 1);
     ASSERT_EQ(looks.size(), 1u);
     constexpr double border = 8;  // triangles on the borders go to one side or the other
-    EXPECT_NEAR(looks[0].tint[skin], 127.5, border);
-    EXPECT_NEAR(looks[0].tint[shirt], 127.5, border);
+    EXPECT_NEAR(looks[0].shares[upper - 1], 127.5, border);
+    EXPECT_NEAR(looks[0].shares[lower - 1], 127.5, border);
     EXPECT_NEAR(looks[0].color.r, 255 * std::sqrt(0.5), border);  // half the light, not half the code value
 }
 
@@ -43,7 +43,7 @@ TEST(PrefixLook, SharesAddUpToTheWhole) {
     for (const std::size_t count : {1u, 2u, 7u, 32u}) {
         for (const pointsample::PrefixLook& look : pointsample::prefix_looks(model, count)) {
             int sum = 0;
-            for (const std::uint8_t share : look.tint) sum += share;
+            for (const std::uint8_t share : look.shares) sum += share;
             EXPECT_NEAR(sum, 255, 2) << count;  // rounding, a half for each of four
         }
     }
@@ -54,17 +54,17 @@ TEST(PrefixLook, WholeModelShowsItself) {
     const auto looks = pointsample::prefix_looks(model, model.size());
     for (std::size_t i = 0; i < model.size(); ++i) {
         EXPECT_NEAR(looks[i].color.r, model.colors[i].r, 1);
-        EXPECT_EQ(looks[i].tint[skin], model.tints[i] == model::Tint::skin ? 255 : 0);
+        EXPECT_EQ(looks[i].shares[upper - 1], model.slots[i] == upper ? 255 : 0);
     }
 }
 
 TEST(PrefixLook, MeanOfAnyPrefixIsNearTheMeanOfAll) {
     const pointsample::PointModel model = two_toned_ball();
     for (const std::size_t count : {4u, 8u, 16u, 32u}) {
-        double skin_share = 0;
+        double upper_share = 0;
         for (const pointsample::PrefixLook& look : pointsample::prefix_looks(model, count))
-            skin_share += look.tint[skin] / 255.0;
-        EXPECT_NEAR(skin_share / static_cast<double>(count), 0.5, 0.15) << count;  // parts differ in size
+            upper_share += look.shares[upper - 1] / 255.0;
+        EXPECT_NEAR(upper_share / static_cast<double>(count), 0.5, 0.15) << count;  // parts differ in size
     }
 }
 
@@ -88,13 +88,13 @@ TEST(PrefixLook, IsTheMeanLightAndTheSharesOfThePartThatIsNearest) {
         for (std::size_t i = 0; i < model.size(); ++i) model.normals[i] *= i % 2 ? -1.0f : 1.0f;  // facing anywhere
         for (const std::size_t count : {1u, 2u, 5u, 24u}) {
             std::vector<glm::dvec3> light(count, glm::dvec3(0));
-            std::vector<std::array<double, model::tint_count>> tints(count, {{}});
+            std::vector<std::array<double, 1 + model::slot_count>> slots(count, {{}});
             std::vector<double> points(count);
             for (std::size_t i = 0; i < model.size(); ++i) {
                 const std::size_t owner = i < count ? i : owner_of(model, i, count);
                 const glm::dvec3 color = glm::dvec3(glm::u8vec3(model.colors[i])) / 255.0;
                 light[owner] += color * color;
-                ++tints[owner][static_cast<std::size_t>(model.tints[i])];
+                ++slots[owner][model.slots[i]];
                 ++points[owner];
             }
             const std::vector<pointsample::PrefixLook> looks = pointsample::prefix_looks(model, count);
@@ -103,8 +103,8 @@ TEST(PrefixLook, IsTheMeanLightAndTheSharesOfThePartThatIsNearest) {
                 for (int channel = 0; channel < 3; ++channel)
                     ASSERT_NEAR(looks[p].color[channel], 255 * std::sqrt(light[p][channel] / points[p]), half_a_code);
                 EXPECT_EQ(looks[p].color.a, 255);
-                for (std::size_t t = 1; t < model::tint_count; ++t)
-                    ASSERT_NEAR(looks[p].tint[t - 1], 255 * tints[p][t] / points[p], half_a_code) << t;
+                for (std::size_t slot = 1; slot < slots[p].size(); ++slot)
+                    ASSERT_NEAR(looks[p].shares[slot - 1], 255 * slots[p][slot] / points[p], half_a_code) << slot;
             }
         }
     }

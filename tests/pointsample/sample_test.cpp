@@ -90,7 +90,7 @@ TEST(Sampler, GivesExactlyTheCountAskedFor) {
             const PointModel model = sample(sphere, count, visible_only);
             EXPECT_EQ(model.size(), count);
             for (const std::size_t size : {model.surface.size(), model.normals.size(), model.colors.size(),
-                                           model.tints.size(), model.joints.size(), model.weights.size()})
+                                           model.slots.size(), model.joints.size(), model.weights.size()})
                 EXPECT_EQ(size, count);
         }
     }
@@ -384,14 +384,14 @@ TEST(Sampler, InfluencesAreTheCornersBlended) {
     }
 }
 
-TEST(Sampler, TintsAreTheNearestCorners) {
+TEST(Sampler, SlotsAreTheNearestCorners) {
     model::Mesh mesh = tests::make_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
-    mesh.tints = {model::Tint::skin, model::Tint::hair, model::Tint::shirt};
+    mesh.slots = {1, 2, 3};
     const PointModel model = sample(mesh, 300);
     for (std::size_t i = 0; i < model.size(); ++i) {
         const float u = model.surface[i].u, v = model.surface[i].v, w = 1 - u - v;
-        const model::Tint expected = w > u && w > v ? mesh.tints[0] : u > v ? mesh.tints[1] : mesh.tints[2];
-        ASSERT_EQ(model.tints[i], expected);
+        const model::Slot expected = w > u && w > v ? mesh.slots[0] : u > v ? mesh.slots[1] : mesh.slots[2];
+        ASSERT_EQ(model.slots[i], expected);
     }
 }
 

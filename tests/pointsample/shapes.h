@@ -17,7 +17,7 @@ inline void fill_looks(model::Mesh& mesh) {
     const std::size_t count = mesh.positions.size();
     mesh.uvs.resize(count);
     mesh.colors.resize(count, glm::u8vec4(255));
-    mesh.tints.resize(count, model::Tint::none);
+    mesh.slots.resize(count, model::no_slot);
     mesh.texture_ids.resize(count, model::no_texture);
     mesh.joints.resize(count, glm::u16vec4(0));
     mesh.weights.resize(count, glm::vec4(1, 0, 0, 0));

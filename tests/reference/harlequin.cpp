@@ -8,7 +8,8 @@ namespace reference {
 
 namespace {
 
-using model::Tint;
+using model::no_slot;
+using model::Slot;
 
 enum Node : std::uint16_t { root, chest, mirrored };
 
@@ -17,17 +18,17 @@ struct Part {
     glm::vec3 center, half;  // [m]
     Node lower = root, upper = root;
     std::uint8_t texture = model::no_texture;
-    Tint tint = Tint::none;
+    bool dyed = false;  // in slots
 };
 
 void add_vertex(model::Mesh& mesh, const Part& part, glm::vec3 position, glm::vec3 normal, glm::vec2 uv,
-                glm::u8vec4 color, Tint tint) {
+                glm::u8vec4 color, Slot slot) {
     const float share = 0.5f + 0.5f * (position.y - part.center.y) / part.half.y;
     mesh.positions.push_back(position);
     mesh.normals.push_back(normal);
     mesh.uvs.push_back(uv);
     mesh.colors.push_back(color);
-    mesh.tints.push_back(tint);
+    mesh.slots.push_back(slot);
     mesh.texture_ids.push_back(part.texture);
     mesh.joints.push_back({part.lower, part.upper, 0, 0});
     mesh.weights.push_back({1 - share, share, 0, 0});
@@ -43,15 +44,15 @@ void add_box(model::Mesh& mesh, const Part& part) {
             up = glm::cross(normal, right);
             const auto first = static_cast<std::uint32_t>(mesh.vertex_count());
             const int face = 2 * axis + (side > 0);
-            // One face a tint, so that a part shows them all if it has one.
-            const Tint tint = part.tint == Tint::none ? Tint::none : static_cast<Tint>(face % model::tint_count);
+            // Every face in the next slot, the first in none.
+            const Slot slot = part.dyed ? static_cast<Slot>(face % (1 + model::slot_count)) : no_slot;
             const auto shade = static_cast<std::uint8_t>(90 + 30 * face);
             for (const glm::vec2 corner : {glm::vec2(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {
                 const glm::vec3 position = part.center + part.half * (normal + corner.x * right + corner.y * up);
                 add_vertex(mesh, part, position, normal, 0.5f + 0.45f * corner + 0.3f * static_cast<float>(face),
                            {shade, static_cast<std::uint8_t>(250 - shade + own % 5),
                             static_cast<std::uint8_t>(120 + own % 100), 255},
-                           tint);
+                           slot);
             }
             for (const std::uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + i);
             if (part.lower == mirrored)
@@ -81,7 +82,7 @@ void add_sheet(model::Mesh& mesh) {
                 const bool lower = j < cells / 2;
                 add_vertex(mesh, lower ? textured : plain, position, normal, at,
                            {230, static_cast<std::uint8_t>(60 + 25 * i), static_cast<std::uint8_t>(60 + 25 * j), 255},
-                           lower ? Tint::none : Tint::shirt);
+                           lower ? no_slot : Slot{3});
             }
             for (const std::uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + k);
         }
@@ -146,7 +147,7 @@ model::Character make_harlequin(bool open) {
     model::Mesh& mesh = harlequin.mesh;
     mesh.textures = {make_texture(8, 8, {37, 53, 29}), make_texture(24, 10, {61, 17, 43})};
     if (open) std::swap(mesh.textures[0], mesh.textures[1]);  // nor do two harlequins share theirs
-    add_box(mesh, {{0, 0.9f, 0}, {0.28f, 0.45f, 0.17f}, root, chest, model::no_texture, Tint::skin});
+    add_box(mesh, {{0, 0.9f, 0}, {0.28f, 0.45f, 0.17f}, root, chest, model::no_texture, true});
     add_box(mesh, {{0.05f, 1.55f, 0.05f}, {0.14f, 0.18f, 0.16f}, chest, chest, 0});
     add_box(mesh, {{0.45f, 1.1f, 0.1f}, {0.12f, 0.35f, 0.1f}, chest, chest, 1});
     add_box(mesh, {{0.12f, 0.2f, 0}, {0.09f, 0.2f, 0.2f}, mirrored, mirrored});

@@ -1,5 +1,5 @@
 // A character that no two faults can make look right: every side of every part has a colour of its own, left and right
-// differ, and there are textures beside plain parts, all tints, a bending joint, a mirrored part and a morph.
+// differ, and there are textures beside plain parts, all slots, a bending joint, a mirrored part and a morph.
 #pragma once
 
 #include "model/character.h"

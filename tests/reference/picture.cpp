@@ -151,19 +151,8 @@ private:
         return code * code;
     }
 
-    static glm::dvec3 tint_of(const Person& person, model::Tint tint) {
-        switch (tint) {
-            case model::Tint::skin:
-                return linear(person.palette.skin);
-            case model::Tint::hair:
-                return linear(person.palette.hair);
-            case model::Tint::shirt:
-                return linear(person.palette.shirt);
-            case model::Tint::trousers:
-                return linear(person.palette.trousers);
-            default:
-                return glm::dvec3(1);
-        }
+    static glm::dvec3 tint_of(const Person& person, std::size_t slot) {
+        return slot == 0 ? glm::dvec3(1) : linear(person.palette.colors[slot - 1]);
     }
 
     // Light on a vertex or point; of a surface that is seen from both sides, on the side that is seen.
@@ -184,7 +173,7 @@ private:
         std::vector<Shade> light;
         for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
             at.push_back(origin + person.scale * (axes * surface.positions[v]));
-            albedo.push_back(linear(mesh.colors[v]) * tint_of(person, mesh.tints[v]));
+            albedo.push_back(linear(mesh.colors[v]) * tint_of(person, mesh.slots[v]));
             light.push_back(light_seen(axes * surface.normals[v], at[v], mesh.double_sided));
         }
         for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
@@ -305,8 +294,8 @@ private:
             const double away = glm::dot(facing, glm::normalize(at));
             if (!both_sides && away > edge_on) continue;
             glm::dvec3 tint(0);
-            for (int t = 0; t < model::tint_count; ++t)
-                tint += looks[p].tint[t] * tint_of(person, static_cast<model::Tint>(t));
+            for (std::size_t slot = 0; slot <= model::slot_count; ++slot)
+                tint += looks[p].slots[slot] * tint_of(person, slot);
             const Shade light = light_seen(facing, at, both_sides);
             splat(person, at, both_sides || away < -edge_on,
                   Shade::between(stored(looks[p].albedo * tint * light.low),

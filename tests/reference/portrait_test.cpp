@@ -160,7 +160,8 @@ TEST_F(Portrait, OfAGroupIsTheReferences) {
         person.origin += glm::dvec3(1.1 * (i % 6) - 2.5, 0.1 * (i % 4), 1.5 * (i / 6));
         person.yaw += i;
         person.scale *= 0.8 + 0.03 * i;
-        std::swap(person.palette.shirt, i % 2 == 0 ? person.palette.hair : person.palette.trousers);
+        std::swap(person.palette[scene::shirt_slot],
+                  i % 2 == 0 ? person.palette[scene::hair_slot] : person.palette[scene::trousers_slot]);
         group.push_back(person);
     }
     const Person middle = sitter(*plain, 0, 0);

@@ -85,12 +85,12 @@ const std::vector<Figure::Look>& Figure::looks(std::size_t count) const {
         if (p < count) owner = p;
         const glm::dvec3 code = glm::dvec3(points_->colors[p]) / 255.0;
         sums[owner].albedo += code * code;
-        sums[owner].tint[static_cast<std::size_t>(points_->tints[p])] += 1;
+        sums[owner].slots[points_->slots[p]] += 1;
         ++members[owner];
     }
     for (std::size_t p = 0; p < count; ++p) {
         sums[p].albedo /= members[p];
-        for (double& share : sums[p].tint) share /= members[p];
+        for (double& share : sums[p].slots) share /= members[p];
     }
     return looks_[count] = sums;
 }

@@ -51,8 +51,8 @@ public:
 
     // How one of the first `count` points looks when there are no others.
     struct Look {
-        glm::dvec3 albedo;               // linear
-        double tint[model::tint_count];  // shares by Tint, sum 1
+        glm::dvec3 albedo;                    // linear
+        double slots[1 + model::slot_count];  // shares by slot, sum 1
     };
     const std::vector<Look>& looks(std::size_t count) const;
 

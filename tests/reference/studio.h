@@ -1,6 +1,7 @@
 // A character and a renderer, for pictures of people who stand where a test puts them.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "pointsample/sample.h"
@@ -30,6 +31,12 @@ render::Frame frame_of(std::span<const Person> people, std::span<const Model* co
                        double splat_size);
 
 // Colours of which no two could be taken for one another.
-inline const scene::Palette motley{{230, 60, 50, 255}, {40, 200, 70, 255}, {60, 80, 240, 255}, {240, 220, 60, 255}};
+inline const scene::Palette motley = [] {
+    const glm::u8vec4 some[] = {{230, 60, 50, 255},  {40, 200, 70, 255},  {60, 80, 240, 255}, {240, 220, 60, 255},
+                                {220, 50, 230, 255}, {60, 220, 230, 255}, {250, 140, 40, 255}};
+    scene::Palette palette;
+    std::copy_n(std::begin(some), palette.colors.size(), palette.colors.begin());
+    return palette;
+}();
 
 }  // namespace reference

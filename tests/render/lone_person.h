@@ -32,7 +32,7 @@ inline model::Character make_lift(float half_width, float rise, double seconds, 
                 mesh.normals.push_back(normal);
                 mesh.uvs.emplace_back(0);
                 mesh.colors.emplace_back(200, 200, 200, 255);
-                mesh.tints.push_back(model::Tint::none);
+                mesh.slots.push_back(model::no_slot);
                 mesh.texture_ids.push_back(model::no_texture);
                 mesh.joints.emplace_back(0);
                 mesh.weights.emplace_back(1, 0, 0, 0);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "scene/crowd.h"
+#include "scene/person.h"
 #include "sfsm/random.h"
 #include "tests/scene/fake_cast.h"
 #include "tests/scene/statistics.h"
@@ -49,8 +50,8 @@ void add_common(Traits& traits, const Crowd& crowd, std::size_t i) {
     traits["character"].push_back(crowd.character[i]);
     traits["upper bits"].push_back(crowd.hash[i] >> 16);
     traits["lower bits"].push_back(crowd.hash[i] & 0xffff);
-    traits["skin"].push_back(luma(crowd.palette[i].skin));
-    traits["trousers"].push_back(luma(crowd.palette[i].trousers));
+    traits["skin"].push_back(luma(crowd.palette[i][scene::skin_slot]));
+    traits["trousers"].push_back(luma(crowd.palette[i][scene::trousers_slot]));
 }
 
 // By where their seat is. Only sitters are exactly above it.
@@ -112,7 +113,7 @@ struct Grounds {
             result["yaw"].push_back(turn(to_centre(crowd.position[i]), crowd.yaw[i]));
             result["x"].push_back(off_grid(crowd.position[i].x));
             result["z"].push_back(off_grid(crowd.position[i].z));
-            result["shirt"].push_back(luma(crowd.palette[i].shirt));
+            result["shirt"].push_back(luma(crowd.palette[i][scene::shirt_slot]));
         }
         return result;
     }
@@ -655,7 +656,7 @@ TEST(Fans, FillTheirEnds) {
     for (std::size_t i = 0; i < stands.crowd.size(); ++i) {
         if (stands.crowd.role[i] != Role::spectator) continue;
         const glm::vec3 at = stands.crowd.position[i];
-        const glm::u8vec4 shirt = stands.crowd.palette[i].shirt;
+        const glm::u8vec4 shirt = stands.crowd.palette[i][scene::shirt_slot];
         if (at.x > stands.plan.oval.half_straight) {
             ++home_end;
             red += is_red(shirt);
@@ -675,8 +676,8 @@ TEST(Fans, MixOnTheGroundAndOnTheTrack) {
     constexpr double worn = 0.75, others = 1.0 / 16;
     double red = 0, yellow = 0;
     for (const std::size_t i : grounds().people) {
-        red += is_red(grounds().crowd.palette[i].shirt);
-        yellow += is_yellow(grounds().crowd.palette[i].shirt);
+        red += is_red(grounds().crowd.palette[i][scene::shirt_slot]);
+        yellow += is_yellow(grounds().crowd.palette[i][scene::shirt_slot]);
     }
     const double standing = static_cast<double>(grounds().people.size());
     EXPECT_NEAR(red / standing, worn * 0.3, 0.01);
@@ -687,8 +688,8 @@ TEST(Fans, MixOnTheGroundAndOnTheTrack) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         const Crowd crowd = tests::populate(cast, 20000, seed);
         for (std::size_t i = 0; i < 200; ++i, ++athletes) {
-            red += is_red(crowd.palette[i].shirt);
-            yellow += is_yellow(crowd.palette[i].shirt);
+            red += is_red(crowd.palette[i][scene::shirt_slot]);
+            yellow += is_yellow(crowd.palette[i][scene::shirt_slot]);
         }
     }
     EXPECT_NEAR(red / athletes, worn * 0.4, 0.04) << "the home team's";

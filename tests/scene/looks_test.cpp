@@ -8,6 +8,7 @@
 #include <set>
 #include <tuple>
 
+#include "scene/person.h"
 #include "scene/places/stadium_crowd.h"
 #include "sfsm/random.h"
 #include "tests/scene/statistics.h"
@@ -42,22 +43,24 @@ std::vector<Palette> dressed(Fans fans, std::uint64_t seed = 1) {
 
 std::set<Rgb> shirts_of(const std::vector<Palette>& people) {
     std::set<Rgb> result;
-    for (const Palette& palette : people) result.insert(rgb(palette.shirt));
+    for (const Palette& palette : people) result.insert(rgb(palette[scene::shirt_slot]));
     return result;
 }
 
 double share_in(const std::vector<Palette>& people, const std::set<Rgb>& shirts) {
-    const auto worn = [&](const Palette& palette) { return shirts.contains(rgb(palette.shirt)); };
+    const auto worn = [&](const Palette& palette) { return shirts.contains(rgb(palette[scene::shirt_slot])); };
     return static_cast<double>(std::count_if(people.begin(), people.end(), worn)) / static_cast<double>(people.size());
 }
 
-std::vector<double> column(const std::vector<Palette>& people, glm::u8vec4 Palette::*part) {
+std::vector<double> column(const std::vector<Palette>& people, model::Slot slot) {
     std::vector<double> result;
-    for (const Palette& palette : people) result.push_back(luma(palette.*part));
+    for (const Palette& palette : people) result.push_back(luma(palette[slot]));
     return result;
 }
 
-constexpr glm::u8vec4 Palette::*parts[] = {&Palette::skin, &Palette::hair, &Palette::shirt, &Palette::trousers};
+using scene::hair_slot;
+using scene::skin_slot;
+constexpr model::Slot slots[] = {skin_slot, hair_slot, scene::shirt_slot, scene::trousers_slot};
 
 TEST(Random, IsSplitmix) {
     // The first two numbers of the published generator from seed 1234567.
@@ -99,10 +102,10 @@ TEST(Random, HashTellsItsArgumentsApart) {
 
 TEST(Looks, WhatIsWornHasNothingToDoWithWhatElseIs) {
     const std::vector<Palette> people = dressed({0.3f, 0.2f});
-    for (const auto a : parts) {
-        for (const auto b : parts) {
-            const bool skin_and_hair = (a == &Palette::skin || a == &Palette::hair) &&
-                                       (b == &Palette::skin || b == &Palette::hair);  // they belong together
+    for (const model::Slot a : slots) {
+        for (const model::Slot b : slots) {
+            const bool skin_and_hair =
+                (a == skin_slot || a == hair_slot) && (b == skin_slot || b == hair_slot);  // they belong together
             if (skin_and_hair) continue;
             if (a != b) {
                 EXPECT_LT(tests::dependence(column(people, a), column(people, b)), tests::chance);
@@ -113,11 +116,11 @@ TEST(Looks, WhatIsWornHasNothingToDoWithWhatElseIs) {
 
 TEST(Looks, EveryColourIsWornAndOpaque) {
     const std::vector<Palette> people = dressed(nobodys);
-    for (const auto part : parts) {
+    for (const model::Slot slot : slots) {
         std::set<Rgb> seen;
         for (const Palette& palette : people) {
-            seen.insert(rgb(palette.*part));
-            ASSERT_EQ((palette.*part).w, 255);
+            seen.insert(rgb(palette[slot]));
+            ASSERT_EQ(palette[slot].w, 255);
         }
         EXPECT_GE(seen.size(), 8u);
     }
@@ -126,8 +129,8 @@ TEST(Looks, EveryColourIsWornAndOpaque) {
 TEST(Looks, ShirtsAndTrousersAreDrawnWithEqualChances) {
     std::map<Rgb, std::int64_t> shirts, trousers;
     for (const Palette& palette : dressed(nobodys)) {
-        ++shirts[rgb(palette.shirt)];
-        ++trousers[rgb(palette.trousers)];
+        ++shirts[rgb(palette[scene::shirt_slot])];
+        ++trousers[rgb(palette[scene::trousers_slot])];
     }
     for (const auto& worn : {shirts, trousers}) {
         std::vector<std::int64_t> counts;
@@ -158,8 +161,8 @@ TEST(Looks, AsManyWearATeamsColoursAsItHasFans) {
 
 TEST(Looks, HomeIsRedAndAwayIsYellow) {
     glm::dvec3 home(0), away(0);
-    for (const Palette& palette : dressed({1, 0})) home += glm::dvec3(palette.shirt) / double{drawn};
-    for (const Palette& palette : dressed({0, 1})) away += glm::dvec3(palette.shirt) / double{drawn};
+    for (const Palette& palette : dressed({1, 0})) home += glm::dvec3(palette[scene::shirt_slot]) / double{drawn};
+    for (const Palette& palette : dressed({0, 1})) away += glm::dvec3(palette[scene::shirt_slot]) / double{drawn};
     EXPECT_GT(home.x, 1.8 * home.y);
     EXPECT_GT(away.x, 1.8 * away.z);
     EXPECT_GT(away.y, 1.4 * away.z);
@@ -189,15 +192,15 @@ TEST(Looks, NobodySeemsToWearNothing) {
     constexpr double least = 25;  // of 255: a shade apart in a small picture
     for (const Fans fans : {nobodys, Fans{1, 0}, Fans{0, 1}}) {
         for (const Palette& palette : dressed(fans)) {
-            ASSERT_GT(distance(palette.shirt, palette.skin), least);
-            ASSERT_GT(distance(palette.trousers, palette.skin), least);
+            ASSERT_GT(distance(palette[scene::shirt_slot], palette[scene::skin_slot]), least);
+            ASSERT_GT(distance(palette[scene::trousers_slot], palette[scene::skin_slot]), least);
         }
     }
 }
 
 TEST(Looks, SkinsGoFromFairToDarkAndFairOnesAreMoreFrequent) {
     constexpr double middle = 150;  // luma between the fourth and the fifth of eight
-    const std::vector<double> skins = column(dressed(nobodys), &Palette::skin);
+    const std::vector<double> skins = column(dressed(nobodys), skin_slot);
     EXPECT_GT(*std::max_element(skins.begin(), skins.end()), 210);
     EXPECT_LT(*std::min_element(skins.begin(), skins.end()), 70);
     const double fair =
@@ -210,11 +213,11 @@ TEST(Looks, WhoHasDarkSkinHasDarkHairAndTheFairHaveAny) {
     constexpr double middle = 150, lightest_dark_hair = 70;  // luma
     std::set<Rgb> dark, fair;
     for (const Palette& palette : dressed(nobodys)) {
-        if (luma(palette.skin) > middle) {
-            fair.insert(rgb(palette.hair));
+        if (luma(palette[scene::skin_slot]) > middle) {
+            fair.insert(rgb(palette[scene::hair_slot]));
         } else {
-            dark.insert(rgb(palette.hair));
-            ASSERT_LT(luma(palette.hair), lightest_dark_hair);
+            dark.insert(rgb(palette[scene::hair_slot]));
+            ASSERT_LT(luma(palette[scene::hair_slot]), lightest_dark_hair);
         }
     }
     EXPECT_EQ(fair.size(), 10u);

@@ -14,7 +14,8 @@ namespace {
 
 using namespace tests;
 using model::Mesh;
-using model::Tint;
+using model::no_slot;
+using model::Slot;
 
 const Mesh& mesh() {
     return person().mesh;
@@ -47,54 +48,57 @@ std::optional<std::uint32_t> first_hit(glm::dvec3 from, glm::dvec3 along) {
     return best;
 }
 
-Tint seen(glm::dvec3 from, glm::dvec3 along) {
+Slot seen(glm::dvec3 from, glm::dvec3 along) {
     const auto hit = first_hit(from, along);
     EXPECT_TRUE(hit.has_value()) << "nothing at " << from.x << ' ' << from.y << ' ' << from.z;
-    return hit ? mesh().tints[*hit] : Tint::none;
+    return hit ? mesh().slots[*hit] : no_slot;
 }
 
-Tint from_the_front(double x, double y) {
+Slot from_the_front(double x, double y) {
     return seen({x, y, 5}, {0, 0, -1});
 }
 
-Tint from_behind(double x, double y) {
+Slot from_behind(double x, double y) {
     return seen({x, y, -5}, {0, 0, 1});
 }
 
 TEST(PersonLooks, WearsTrousersBelowAShirtBelowAFaceBelowHair) {
     for (const double side : {-1.0, 1.0}) {
         const double leg = 0.09 * side;
-        EXPECT_EQ(from_the_front(leg, 0.04), Tint::none) << "shoes";
-        EXPECT_EQ(from_behind(leg, 0.04), Tint::none) << "shoes";
+        EXPECT_EQ(from_the_front(leg, 0.04), no_slot) << "shoes";
+        EXPECT_EQ(from_behind(leg, 0.04), no_slot) << "shoes";
         for (double y = 0.13; y < 0.97; y += 0.02) {
-            EXPECT_EQ(from_the_front(leg, y), Tint::trousers) << y;
-            EXPECT_EQ(from_behind(leg, y), Tint::trousers) << y;
+            EXPECT_EQ(from_the_front(leg, y), scene::trousers_slot) << y;
+            EXPECT_EQ(from_behind(leg, y), scene::trousers_slot) << y;
         }
         for (double y = 1.0; y < 1.44; y += 0.02) {
-            EXPECT_EQ(from_the_front(0.05 * side, y), Tint::shirt) << y;
-            EXPECT_EQ(from_behind(0.05 * side, y), Tint::shirt) << y;
+            EXPECT_EQ(from_the_front(0.05 * side, y), scene::shirt_slot) << y;
+            EXPECT_EQ(from_behind(0.05 * side, y), scene::shirt_slot) << y;
         }
     }
     constexpr double beside = 0.004;  // [m] the middle, where faces meet
-    for (double y = 1.54; y < 1.68; y += 0.01) EXPECT_EQ(from_the_front(beside, y), Tint::skin) << y;
-    for (double y = 1.64; y < 1.74; y += 0.02) EXPECT_EQ(from_behind(beside, y), Tint::hair) << y;
-    EXPECT_EQ(from_the_front(beside, 1.73), Tint::hair);
-    EXPECT_EQ(seen({beside, 5, 0}, {0, -1, 0}), Tint::hair) << "from above";
-    EXPECT_EQ(from_behind(beside, 1.53), Tint::skin) << "the neck";
+    for (double y = 1.54; y < 1.68; y += 0.01) EXPECT_EQ(from_the_front(beside, y), scene::skin_slot) << y;
+    for (double y = 1.64; y < 1.74; y += 0.02) EXPECT_EQ(from_behind(beside, y), scene::hair_slot) << y;
+    EXPECT_EQ(from_the_front(beside, 1.73), scene::hair_slot);
+    EXPECT_EQ(seen({beside, 5, 0}, {0, -1, 0}), scene::hair_slot) << "from above";
+    EXPECT_EQ(from_behind(beside, 1.53), scene::skin_slot) << "the neck";
 }
 
-TEST(PersonLooks, EachJointsSkinHasItsTint) {
-    const std::map<std::string, std::set<Tint>> worn{
-        {"hand", {Tint::skin}},     {"forearm", {Tint::skin}},   {"foot", {Tint::none}},
-        {"shin", {Tint::trousers}}, {"thigh", {Tint::trousers}}, {"head", {Tint::skin, Tint::hair, Tint::none}},
-        {"chest", {Tint::shirt}}};
-    for (const auto& [joint, tints] : worn) {
+TEST(PersonLooks, EachJointsSkinIsInItsSlots) {
+    const std::map<std::string, std::set<Slot>> worn{{"hand", {scene::skin_slot}},
+                                                     {"forearm", {scene::skin_slot}},
+                                                     {"foot", {no_slot}},
+                                                     {"shin", {scene::trousers_slot}},
+                                                     {"thigh", {scene::trousers_slot}},
+                                                     {"head", {scene::skin_slot, scene::hair_slot, no_slot}},
+                                                     {"chest", {scene::shirt_slot}}};
+    for (const auto& [joint, slots] : worn) {
         for (const char* side : {"_l", "_r", ""}) {
             const bool has_sides = joint != "head" && joint != "chest";
             if (has_sides != (*side != '\0')) continue;
             const auto vertices = vertices_of(joint + side);
             EXPECT_FALSE(vertices.empty()) << joint << side;
-            for (const std::size_t v : vertices) EXPECT_TRUE(tints.contains(mesh().tints[v])) << joint << side;
+            for (const std::size_t v : vertices) EXPECT_TRUE(slots.contains(mesh().slots[v])) << joint << side;
         }
     }
 }
@@ -103,12 +107,12 @@ TEST(PersonLooks, HasADarkEyeOnEachSideOfTheNose) {
     for (const double side : {-1.0, 1.0}) {
         const auto hit = first_hit({0.031 * side, 1.648, 5}, {0, 0, -1});
         ASSERT_TRUE(hit.has_value());
-        EXPECT_EQ(mesh().tints[*hit], Tint::none);
+        EXPECT_EQ(mesh().slots[*hit], no_slot);
         EXPECT_LT(luma(mesh().colors[*hit]), 60);
     }
     int eyes = 0;
     for (std::size_t v = 0; v < mesh().vertex_count(); ++v) {
-        if (mesh().tints[v] != Tint::none || mesh().positions[v].y < 0.5f) continue;
+        if (mesh().slots[v] != no_slot || mesh().positions[v].y < 0.5f) continue;
         ++eyes;
         EXPECT_GT(mesh().positions[v].z, 0.05f);
         EXPECT_EQ(mesh().joints[v][0], node_named("head"));
@@ -123,13 +127,13 @@ TEST(PersonLooks, HasADarkEyeOnEachSideOfTheNose) {
     EXPECT_LT(mesh().positions[foremost].y, 1.64f);
 }
 
-TEST(PersonLooks, ShoesAreDarkAndAllElseIsAShadeOfItsTint) {
+TEST(PersonLooks, ShoesAreDarkAndAllElseIsAShadeOfItsSlot) {
     constexpr int darkest = 140;  // a crease
     std::set<int> shades;
     for (std::size_t v = 0; v < mesh().vertex_count(); ++v) {
         const glm::u8vec4 color = mesh().colors[v];
         EXPECT_EQ(color.w, 255);
-        if (mesh().tints[v] == Tint::none) {
+        if (mesh().slots[v] == no_slot) {
             EXPECT_LT(luma(color), 60);
             EXPECT_GT(luma(color), 15);
             continue;
@@ -173,7 +177,7 @@ TEST(PersonLooks, BothSidesAreClothedShadedAndMovedAlike) {
         const glm::vec3 normal(-mesh().normals[v].x, mesh().normals[v].y, mesh().normals[v].z);
         bool found = false;
         for (std::size_t other = 0; other < mesh().vertex_count() && !found; ++other) {
-            if (mesh().positions[other] != mirrored || mesh().tints[other] != mesh().tints[v]) continue;
+            if (mesh().positions[other] != mirrored || mesh().slots[other] != mesh().slots[v]) continue;
             if (mesh().colors[other] != mesh().colors[v]) continue;
             if (glm::distance(mesh().normals[other], normal) > tolerance) continue;
             found = moved_by(v, true) == moved_by(other, false);
@@ -297,7 +301,7 @@ TEST(PersonLooks, NormalsOfAShinPointAwayFromItsBone) {
 
 constexpr double look_every = 1.0 / 10.0;  // [s]
 
-TEST(PersonSkin, HoldsTogetherWhereTintsMeet) {
+TEST(PersonSkin, HoldsTogetherWhereSlotsMeet) {
     constexpr float gap = 1e-5f;  // [m] rounding
     const std::vector<std::uint32_t> weld = welded(mesh());
     for (const model::Clip& clip : person().clips) {

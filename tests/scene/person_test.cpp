@@ -24,7 +24,6 @@ using namespace tests;
 using model::Character;
 using model::Clip;
 using model::Mesh;
-using model::Tint;
 
 // One representative a triangle: triangles with a welded vertex in common are one part.
 std::vector<std::uint32_t> parts(const Mesh& mesh) {
@@ -57,7 +56,7 @@ TEST(Person, FillsEveryVertexArray) {
     EXPECT_EQ(mesh.normals.size(), count);
     EXPECT_EQ(mesh.uvs.size(), count);
     EXPECT_EQ(mesh.colors.size(), count);
-    EXPECT_EQ(mesh.tints.size(), count);
+    EXPECT_EQ(mesh.slots.size(), count);
     EXPECT_EQ(mesh.texture_ids.size(), count);
     EXPECT_EQ(mesh.joints.size(), count);
     EXPECT_EQ(mesh.weights.size(), count);
@@ -118,9 +117,10 @@ TEST(Person, WeightsSumToOneOverKnownJoints) {
     }
 }
 
-TEST(Person, WearsEveryTint) {
-    for (const Tint tint : {Tint::none, Tint::skin, Tint::hair, Tint::shirt, Tint::trousers})
-        EXPECT_GT(std::count(person().mesh.tints.begin(), person().mesh.tints.end(), tint), 0);
+TEST(Person, WearsEverySlot) {
+    for (const model::Slot slot :
+         {model::no_slot, scene::skin_slot, scene::hair_slot, scene::shirt_slot, scene::trousers_slot})
+        EXPECT_GT(std::count(person().mesh.slots.begin(), person().mesh.slots.end(), slot), 0);
 }
 
 TEST(Person, Stands175CentimetresTallOnTheGround) {

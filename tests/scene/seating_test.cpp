@@ -76,7 +76,7 @@ TEST(Sightlines, AreDrawnFromTheEyesOfTheBuiltInPerson) {
     motion::skin(person.mesh, pose, positions, normals);
     float sum = 0, count = 0;
     for (std::size_t v = 0; v < positions.size(); ++v) {
-        if (person.mesh.tints[v] != model::Tint::none || person.mesh.positions[v].y < 1.5f) continue;
+        if (person.mesh.slots[v] != model::no_slot || person.mesh.positions[v].y < 1.5f) continue;
         sum += positions[v].y;
         ++count;
     }
