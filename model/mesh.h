@@ -1,13 +1,14 @@
 // The surface of a character as plain data: triangles, their looks, and how they follow the skeleton.
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <string>
 #include <vector>
 
+#include "model/material.h"
 #include "model/slot.h"
 
 namespace model {
@@ -28,25 +29,27 @@ struct MorphTarget {
     std::vector<glm::vec3> normal_offsets;    // empty or as long as position_offsets
 };
 
-inline constexpr std::uint8_t no_texture = 255;
-
 // Structure of arrays, one element a vertex unless it says otherwise. All arrays are always filled.
 struct Mesh {
-    std::vector<glm::vec3> positions;       // [file's units], in bind space
-    std::vector<glm::vec3> normals;         // unit, outward
-    std::vector<glm::vec2> uvs;             // top-left origin, wraps
-    std::vector<glm::u8vec4> colors;        // base colour factor x vertex colour, sRGB-encoded
-    std::vector<Slot> slots;                // of the person's colours (slot.h)
-    std::vector<std::uint8_t> texture_ids;  // into textures, or no_texture
-    std::vector<glm::u16vec4> joints;       // into Skeleton::palette; unused ones have weight 0
-    std::vector<glm::vec4> weights;         // >= 0, sum 1
-    std::vector<std::uint32_t> indices;     // three a triangle, counter-clockwise seen from outside
+    std::vector<glm::vec3> positions;         // [file's units], in bind space
+    std::vector<glm::vec3> normals;           // unit, outward
+    std::vector<glm::vec2> uvs;               // top-left origin, wraps
+    std::vector<glm::u8vec4> colors;          // base colour factor x vertex colour, sRGB-encoded
+    std::vector<Slot> slots;                  // of the person's colours (slot.h)
+    std::vector<std::uint16_t> material_ids;  // into materials
+    std::vector<glm::u16vec4> joints;         // into Skeleton::palette; unused ones have weight 0
+    std::vector<glm::vec4> weights;           // >= 0, sum 1
+    std::vector<std::uint32_t> indices;       // three a triangle, counter-clockwise seen from outside
+    std::vector<Material> materials;          // no two alike
     std::vector<Texture> textures;
     std::vector<MorphTarget> morphs;
-    bool double_sided = false;  // some surface is open and is to be seen from both sides
 
     std::size_t vertex_count() const { return positions.size(); }
     std::size_t triangle_count() const { return indices.size() / 3; }
+
+    const Material& material_of(std::size_t vertex) const { return materials[material_ids[vertex]]; }
+    // A character is sampled and drawn two-sided as a whole, if any of it is.
+    bool double_sided() const { return std::ranges::any_of(materials, &Material::double_sided); }
 };
 
 }  // namespace model

@@ -58,10 +58,14 @@ std::string model_key(const model::Mesh& mesh, std::span<const PosedMesh> poses,
     hasher.add(mesh.uvs);
     hasher.add(mesh.colors);
     hasher.add(mesh.slots);
-    hasher.add(mesh.texture_ids);
+    hasher.add(mesh.material_ids);
     hasher.add(mesh.joints);
     hasher.add(mesh.weights);
-    hasher.add(mesh.double_sided);
+    hasher.add(static_cast<std::uint64_t>(mesh.materials.size()));
+    for (const model::Material& material : mesh.materials) {
+        hasher.add(material.texture);
+        hasher.add(material.double_sided);
+    }
     for (const model::Texture& texture : mesh.textures) {
         hasher.add(texture.width);
         hasher.add(texture.height);

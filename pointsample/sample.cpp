@@ -251,7 +251,7 @@ PointModel sample(const model::Mesh& mesh, std::span<const PosedMesh> poses, con
     Progress progress(report);
     const Surface surface(mesh.indices, poses);
     std::optional<HiddenTest> hidden;
-    if (options.visible_only) hidden.emplace(surface, mesh.double_sided);
+    if (options.visible_only) hidden.emplace(surface, mesh.double_sided());
     Draft draft = make_draft({surface, options, hidden ? &*hidden : nullptr, progress});
     hidden.reset();  // frees the ray-tracing scenes
 

@@ -426,7 +426,8 @@ Mesh build_person_mesh() {
     drop_unused_vertices(mesh);
     mesh.normals = smooth_normals(mesh);
     mesh.uvs.assign(mesh.vertex_count(), glm::vec2(0.0f));
-    mesh.texture_ids.assign(mesh.vertex_count(), model::no_texture);
+    mesh.materials.resize(1);
+    mesh.material_ids.assign(mesh.vertex_count(), 0);
     return mesh;
 }
 

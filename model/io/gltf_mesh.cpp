@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "model/io/gltf_file.h"
+#include "model/io/materials.h"
 #include "model/io/normals.h"
 #include "model/srgb.h"
 #include "motion/pose.h"
@@ -47,10 +48,9 @@ private:
 // What a material says about looks; the default is glTF's.
 struct Look {
     glm::vec4 factor{1.0f};  // linear
-    std::uint8_t texture = no_texture;
+    Material material;
     int uv_set = 0;
     glm::mat3 uv_transform{1.0f};  // KHR_texture_transform
-    bool double_sided = false;
 };
 
 float number_at(const tinygltf::Value& object, const char* name, std::size_t index, float fallback) {
@@ -87,8 +87,8 @@ Look look_of(const GltfFile& file, int material, TextureSet& textures) {
     const tinygltf::PbrMetallicRoughness& pbr = found.pbrMetallicRoughness;
     for (std::size_t i = 0; i < 4 && pbr.baseColorFactor.size() == 4; ++i)
         look.factor[static_cast<int>(i)] = static_cast<float>(pbr.baseColorFactor[i]);
-    look.double_sided = found.doubleSided;
-    look.texture = textures.id_of(pbr.baseColorTexture.index);
+    look.material.double_sided = found.doubleSided;
+    look.material.texture = textures.id_of(pbr.baseColorTexture.index);
     look.uv_set = pbr.baseColorTexture.texCoord;
     apply_texture_transform(pbr.baseColorTexture.extensions, look);
     return look;
@@ -245,8 +245,9 @@ private:
                                       unit_byte(factor.a));
         }
         mesh_.slots.resize(mesh_.positions.size(), no_slot);
-        mesh_.texture_ids.resize(mesh_.positions.size(), uvs ? look.texture : no_texture);
-        mesh_.double_sided |= look.double_sided;
+        Material material = look.material;
+        if (!uvs) material.texture = no_texture;
+        mesh_.material_ids.resize(mesh_.positions.size(), number_of(material, mesh_.materials));
     }
 
     void write_influences(const Attachment& attachment) {

@@ -19,10 +19,11 @@ Character statue_of(Mesh mesh, const std::string& name) {
     mesh.uvs.resize(count, glm::vec2(0.0f));
     mesh.colors.resize(count, glm::u8vec4(255));
     mesh.slots.resize(count, no_slot);
-    mesh.texture_ids.resize(count, no_texture);
+    mesh.material_ids.resize(count, 0);
     mesh.joints.resize(count, glm::u16vec4(0));
     mesh.weights.resize(count, glm::vec4(1, 0, 0, 0));
-    mesh.double_sided = true;  // neither format says; a closed surface looks the same
+    if (mesh.materials.empty()) mesh.materials.emplace_back();
+    for (Material& material : mesh.materials) material.double_sided = true;  // a closed surface looks the same
     Character character;
     character.name = name;
     character.mesh = std::move(mesh);

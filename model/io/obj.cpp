@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "model/input_file.h"
+#include "model/io/materials.h"
 #include "model/io/mesh_readers.h"
 #include "model/io/normals.h"
 #include "model/io/obj_materials.h"
@@ -217,10 +218,13 @@ private:
         positions_ = {};
         first_ = {};
         colors_ = {};
+        const std::uint16_t plain = number_of({}, mesh_.materials);
+        std::vector<std::uint16_t> materials;
+        for (const ObjLook& look : looks_) materials.push_back(number_of({look.texture}, mesh_.materials));
         mesh_.uvs.reserve(corners_.size());
         for (const Corner& corner : corners_) {
             mesh_.uvs.push_back(corner.uv == none ? glm::vec2(0.0f) : uvs_[corner.uv]);
-            mesh_.texture_ids.push_back(corner.uv == none ? no_texture : looks_[corner.look].texture);
+            mesh_.material_ids.push_back(corner.uv == none ? plain : materials[corner.look]);
         }
         uvs_ = {};
         std::vector<std::uint32_t> places(corners_.size());

@@ -34,7 +34,7 @@ void check_for_errors() {
 Buffer make_figure_block(const figures::Figure& figure) {
     const motion::PoseTable& poses = *figure.poses;
     const float silhouette = 0.25f * poses.area;  // a quarter of the surface, as of any convex body
-    const FigureBlock block{glm::vec4(poses.box.min, figure.mesh->double_sided ? 1.0f : 0.0f),
+    const FigureBlock block{glm::vec4(poses.box.min, figure.mesh->double_sided() ? 1.0f : 0.0f),
                             glm::vec4(poses.box.size(), std::sqrt(silhouette))};
     Buffer buffer = Buffer::create();
     glNamedBufferStorage(buffer.name(), sizeof block, &block, 0);

@@ -30,7 +30,8 @@ std::vector<Record> records_of(const model::Mesh& mesh) {
     std::vector<Record> records;
     for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
         const glm::u8vec4 color = mesh.colors[v];
-        const std::uint8_t layer = mesh.texture_ids[v] == model::no_texture ? no_layer : mesh.texture_ids[v];
+        const std::uint8_t texture = mesh.material_of(v).texture;
+        const std::uint8_t layer = texture == model::no_texture ? no_layer : texture;
         records.push_back(
             {v, {{}, color.r, color.g, color.b, look_of(mesh.slots[v], layer), {glm::packHalf2x16(mesh.uvs[v])}}});
     }
@@ -47,7 +48,7 @@ public:
         const model::Mesh& mesh = *figure.mesh;
         Objects& objects = objects_.emplace_back();
         objects.textured = !mesh.textures.empty();
-        objects.double_sided = mesh.double_sided;
+        objects.double_sided = mesh.double_sided();
         if (objects.textured) objects.layers = make_texture_array(mesh.textures);
         objects.vertices = upload_poses(figure.poses->vertices, figure.poses->vertex_count, records_of(mesh));
         objects.indices = upload<std::uint32_t>(mesh.indices);

@@ -168,7 +168,9 @@ TEST(ModelKey, ChangesWithEverythingThatIsRead) {
     with_mesh([](auto& m) { std::swap(m.indices[0], m.indices[1]); });
     with_mesh([](auto& m) { m.colors[3].g ^= 1; });
     with_mesh([](auto& m) { m.weights[5].x *= 0.5f; });
-    with_mesh([](auto& m) { m.double_sided = !m.double_sided; });
+    with_mesh([](auto& m) { m.materials[0].double_sided ^= true; });
+    with_mesh([](auto& m) { m.materials[0].texture = 7; });
+    with_mesh([](auto& m) { m.material_ids[3] = 1; });
     with_mesh([](auto& m) { m.textures.push_back({1, 1, {{1, 2, 3, 4}}}); });
     std::vector<pointsample::PosedMesh> moved = poses;
     moved[0].positions[7].y += 1e-6f;

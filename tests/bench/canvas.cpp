@@ -92,9 +92,9 @@ glm::vec3 Canvas::surface_color(const Subject& subject, std::size_t triangle, co
     glm::vec3 color = mixed([&](std::uint32_t vertex) {
         return linear(mesh.colors[vertex]) * linear(subject.palette[mesh.slots[vertex]]);
     });
-    if (const std::uint8_t texture = mesh.texture_ids[corners[0]]; texture != model::no_texture)
+    if (const std::uint8_t texture = mesh.material_of(corners[0]).texture; texture != model::no_texture)
         color *= texture_color(mesh.textures[texture], mixed([&](std::uint32_t vertex) { return mesh.uvs[vertex]; }));
-    return lit(color, mixed([&](std::uint32_t vertex) { return subject.pose.normals[vertex]; }), mesh.double_sided);
+    return lit(color, mixed([&](std::uint32_t vertex) { return subject.pose.normals[vertex]; }), mesh.double_sided());
 }
 
 void Canvas::draw_mesh(const Subject& subject, std::optional<glm::vec3> flat) {
@@ -126,7 +126,7 @@ void Canvas::draw_points(const Subject& subject, const pointsample::PointModel& 
     for (std::size_t i = 0; i < count; ++i) {
         const glm::vec3 at = to_samples(model.positions[i]);
         const glm::vec3 color = lit(linear(model.colors[i]) * linear(subject.palette[model.slots[i]]), model.normals[i],
-                                    subject.character.mesh.double_sided);
+                                    subject.character.mesh.double_sided());
         const int last_x = std::min(static_cast<int>(std::floor(at.x + reach)), width_ - 1);
         const int last_y = std::min(static_cast<int>(std::floor(at.y + reach)), height_ - 1);
         for (int y = std::max(static_cast<int>(std::floor(at.y - reach)), 0); y <= last_y; ++y) {

@@ -58,7 +58,7 @@ public:
         std::vector<pointsample::Place> places;
         for (std::size_t i = 0; i < all.size(); ++i)
             places.push_back({glm::vec3(all.positions[i]), glm::vec3(all.normals[i])});
-        const std::vector<char> seen = visibility_->look(places, mesh_.double_sided);
+        const std::vector<char> seen = visibility_->look(places, mesh_.double_sided());
         tests::Sample out;
         for (std::size_t i = 0; i < all.size(); ++i) {
             if (!seen[i]) continue;

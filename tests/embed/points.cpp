@@ -15,7 +15,8 @@ int main() {
     mesh.uvs.resize(vertices);
     mesh.colors.resize(vertices, glm::u8vec4(255));
     mesh.slots.resize(vertices, model::no_slot);
-    mesh.texture_ids.resize(vertices, model::no_texture);
+    mesh.materials.resize(1);
+    mesh.material_ids.resize(vertices);
     mesh.joints.resize(vertices);
     mesh.weights.resize(vertices, {1, 0, 0, 0});
     const pointsample::PosedMesh pose{mesh.positions, mesh.normals};

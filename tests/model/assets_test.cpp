@@ -94,7 +94,7 @@ void expect_sane(const model::Character& character) {
     const std::size_t count = mesh.vertex_count();
     ASSERT_GT(mesh.triangle_count(), 0u);
     for (const std::size_t size : {mesh.normals.size(), mesh.uvs.size(), mesh.colors.size(), mesh.slots.size(),
-                                   mesh.texture_ids.size(), mesh.joints.size(), mesh.weights.size()})
+                                   mesh.material_ids.size(), mesh.joints.size(), mesh.weights.size()})
         ASSERT_EQ(size, count);
     for (const std::uint32_t index : mesh.indices) ASSERT_LT(index, count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -106,8 +106,11 @@ void expect_sane(const model::Character& character) {
             ASSERT_GE(weights[k], 0.0f);
             ASSERT_LT(mesh.joints[i][k], character.skeleton.palette.size());
         }
-        if (mesh.texture_ids[i] != model::no_texture) {
-            ASSERT_LT(mesh.texture_ids[i], mesh.textures.size());
+        ASSERT_LT(mesh.material_ids[i], mesh.materials.size());
+    }
+    for (const model::Material& material : mesh.materials) {
+        if (material.texture != model::no_texture) {
+            ASSERT_LT(material.texture, mesh.textures.size());
         }
     }
     for (std::size_t i = 0; i < character.skeleton.nodes.size(); ++i)

@@ -217,7 +217,7 @@ TEST(GltfMaterials, WithoutCoordinatesThereIsNoTexture) {
     GltfBuilder builder = tests::make_everything();
     attributes(builder).erase("TEXCOORD_0");
     const model::Mesh mesh = load(builder).mesh;
-    EXPECT_EQ(mesh.texture_ids[0], model::no_texture);
+    EXPECT_EQ(mesh.material_of(0).texture, model::no_texture);
     EXPECT_EQ(mesh.colors[0], glm::u8vec4(255, 188, 0, 128));
 }
 
@@ -235,8 +235,8 @@ TEST(GltfMaterials, TexturesOfOneImageAreOneTexture) {
     }
     const model::Mesh mesh = load(builder).mesh;
     EXPECT_EQ(mesh.textures.size(), 2u);
-    EXPECT_NE(mesh.texture_ids[0], mesh.texture_ids[4]);
-    EXPECT_EQ(mesh.texture_ids[0], mesh.texture_ids[8]);
+    EXPECT_NE(mesh.material_of(0).texture, mesh.material_of(4).texture);
+    EXPECT_EQ(mesh.material_of(0).texture, mesh.material_of(8).texture);
 }
 
 // --- Nodes and scenes

@@ -198,7 +198,7 @@ Corner corner_of(const model::Character& character, std::uint32_t vertex,
     Corner values;
     for (const std::vector<glm::vec3>& vectors : posed) append(values, vectors[vertex]);
     for (int i = 0; i < 4; ++i) values.push_back(mesh.colors[vertex][i]);
-    const std::uint8_t texture = mesh.texture_ids[vertex];
+    const std::uint8_t texture = mesh.material_of(vertex).texture;
     values.push_back(texture != model::no_texture);
     if (texture == model::no_texture) return values;
     values.insert(values.end(), {mesh.uvs[vertex].x, mesh.uvs[vertex].y});
@@ -243,7 +243,7 @@ TEST(GltfParts, EachIsTheSameBesideAnyOther) {
             const model::Character both = load_parts({first, second});
             EXPECT_EQ(triangles_of(both),
                       together(triangles_of(load_parts({first})), triangles_of(load_parts({second}))));
-            EXPECT_EQ(both.mesh.double_sided, parts[first].double_sided || parts[second].double_sided);
+            EXPECT_EQ(both.mesh.double_sided(), parts[first].double_sided || parts[second].double_sided);
         }
     }
 }
@@ -302,7 +302,7 @@ TEST(GltfParts, APaintedMirrorKeepsItsNormalsOutwardAndItsSecondCoordinates) {
     expect_near(rest.normals[3], glm::normalize(glm::vec3(0, 0.3f, 1.6f)));
     expect_near(rest.normals[0], {-1, 0, 0});
     EXPECT_EQ(mesh.uvs[2], glm::vec2(0.5f, 0.6f));
-    EXPECT_EQ(mesh.textures[mesh.texture_ids[0]].texels[1], glm::u8vec4('d', 'e', 'f', 255));
+    EXPECT_EQ(mesh.textures[mesh.material_of(0).texture].texels[1], glm::u8vec4('d', 'e', 'f', 255));
     EXPECT_EQ(mesh.colors[0], glm::u8vec4(124, 188, 255, 64));  // sRGB's codes of a fifth, a half and all of the light
     const glm::vec3 a = vertex(rest.positions, mesh, 0), b = vertex(rest.positions, mesh, 1),
                     c = vertex(rest.positions, mesh, 2);
@@ -320,7 +320,7 @@ TEST(GltfParts, VertexColorsMultiplyTheFactorInLight) {
     // Half, none and a fifth of the light; 0.04 of alpha. Vertices keep the file's order.
     EXPECT_EQ(mesh.colors[0], glm::u8vec4(188, 0, 124, 9));
     EXPECT_EQ(mesh.colors[1], glm::u8vec4(0, 137, 170, 99));
-    EXPECT_EQ(mesh.texture_ids[0], model::no_texture);
+    EXPECT_EQ(mesh.material_of(0).texture, model::no_texture);
 }
 
 TEST(GltfParts, StepsAreHeldBelowTheirNode) {
@@ -392,9 +392,9 @@ TEST(GltfParts, PrimitivesOfOneMeshHaveTheirOwnMaterials) {
     ASSERT_EQ(mesh.triangle_count(), 2u);
     for (std::size_t corner = 0; corner < 3; ++corner) {
         EXPECT_EQ(mesh.colors[mesh.indices[corner]], glm::u8vec4(255, 0, 0, 255));
-        EXPECT_EQ(mesh.texture_ids[mesh.indices[corner]], 0);
+        EXPECT_EQ(mesh.material_of(mesh.indices[corner]).texture, 0);
         EXPECT_EQ(mesh.colors[mesh.indices[3 + corner]], glm::u8vec4(255));
-        EXPECT_EQ(mesh.texture_ids[mesh.indices[3 + corner]], model::no_texture);
+        EXPECT_EQ(mesh.material_of(mesh.indices[3 + corner]).texture, model::no_texture);
     }
 }
 

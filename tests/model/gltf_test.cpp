@@ -60,9 +60,9 @@ TEST(Gltf, LoadsAllThatAFileHolds) {
     EXPECT_EQ(mesh.uvs[2], glm::vec2(1, 1));
     EXPECT_EQ(mesh.colors[0], glm::u8vec4(255, 188, 0, 128));  // half of the light is sRGB's 188
     EXPECT_EQ(mesh.weights[0], glm::vec4(0.5f, 0.5f, 0, 0));   // 2 and 2 in the file
-    EXPECT_TRUE(mesh.double_sided);
+    EXPECT_TRUE(mesh.double_sided());
     ASSERT_EQ(mesh.textures.size(), 1u);
-    EXPECT_EQ(mesh.texture_ids[0], 0);
+    EXPECT_EQ(mesh.material_of(0).texture, 0);
     EXPECT_EQ(mesh.textures[0].width, 2);
     EXPECT_EQ(mesh.textures[0].texels[0], glm::u8vec4(255, 32, 16, 255));
     EXPECT_EQ(mesh.textures[0].texels[1], glm::u8vec4(1, 2, 3, 255));

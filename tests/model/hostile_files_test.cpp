@@ -67,15 +67,17 @@ void use(const std::filesystem::path& path) {
     const std::size_t count = mesh.vertex_count();
     if (mesh.indices.empty() || mesh.indices.size() % 3 != 0) throw std::logic_error("no triangles");
     for (const std::size_t size : {mesh.normals.size(), mesh.uvs.size(), mesh.colors.size(), mesh.slots.size(),
-                                   mesh.texture_ids.size(), mesh.joints.size(), mesh.weights.size()})
+                                   mesh.material_ids.size(), mesh.joints.size(), mesh.weights.size()})
         if (size != count) throw std::logic_error("lists of different lengths");
     for (const std::uint32_t index : mesh.indices)
         if (index >= count) throw std::logic_error("an index out of range");
     for (const glm::vec3& position : mesh.positions)
         if (!std::isfinite(position.x) || !std::isfinite(position.y) || !std::isfinite(position.z))
             throw std::logic_error("a position is no number");
-    for (const std::uint8_t texture : mesh.texture_ids)
-        if (texture != model::no_texture && texture >= mesh.textures.size())
+    for (const std::uint16_t material : mesh.material_ids)
+        if (material >= mesh.materials.size()) throw std::logic_error("a material out of range");
+    for (const model::Material& material : mesh.materials)
+        if (material.texture != model::no_texture && material.texture >= mesh.textures.size())
             throw std::logic_error("a texture out of range");
     motion::Pose pose;
     std::vector<glm::vec3> positions, normals;

@@ -19,7 +19,7 @@ void expect_whole(const Mesh& mesh) {
     EXPECT_EQ(mesh.uvs.size(), count);
     EXPECT_EQ(mesh.colors.size(), count);
     EXPECT_EQ(mesh.slots.size(), count);
-    EXPECT_EQ(mesh.texture_ids.size(), count);
+    EXPECT_EQ(mesh.material_ids.size(), count);
     EXPECT_EQ(mesh.joints.size(), count);
     EXPECT_EQ(mesh.weights.size(), count);
     for (const std::uint32_t index : mesh.indices) ASSERT_LT(index, count);
@@ -45,7 +45,7 @@ TEST_F(MeshFile, ACubeIsTheSameInEveryFormat) {
         EXPECT_EQ(character.skeleton.nodes.size(), 1u);
         EXPECT_EQ(character.skeleton.palette.size(), 1u);
         EXPECT_TRUE(character.clips.empty());
-        EXPECT_TRUE(mesh.double_sided);  // neither format says
+        EXPECT_TRUE(mesh.double_sided());  // neither format says
         EXPECT_EQ(mesh.weights[0], glm::vec4(1, 0, 0, 0));
         motion::Pose pose;
         motion::evaluate_rest(character, pose);

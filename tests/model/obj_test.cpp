@@ -100,7 +100,7 @@ TEST_F(Obj, MaterialsColorTheirFaces) {
                            "v 0 2 0 0.5 1 1\nvt 0 0\nf 1 2 3\nusemtl red one\nf 1 2 3\nf 5 2 3\nusemtl half\nf 1 2 3\n"
                            "usemtl gone\nf 1/1 2/1 3/1\nusemtl painted\nf 1/1 2/1 3\nusemtl unknown\nf 1 2 3\n");
     const auto color = [&](std::size_t face) { return mesh.colors[mesh.indices[3 * face]]; };
-    const auto texture = [&](std::size_t corner) { return mesh.texture_ids[mesh.indices[corner]]; };
+    const auto texture = [&](std::size_t corner) { return mesh.material_of(mesh.indices[corner]).texture; };
     EXPECT_EQ(color(0), glm::u8vec4(255));
     EXPECT_EQ(color(1), glm::u8vec4(255, 0, 0, 255));
     EXPECT_EQ(color(2), glm::u8vec4(128, 0, 0, 255));
@@ -142,7 +142,7 @@ TEST_F(Obj, FacesKeepTheLookThatIsInUse) {
         const std::uint32_t vertex = mesh.indices[corner];
         const Expected& look = expected[corner / 3];
         EXPECT_EQ(mesh.colors[vertex], look.color) << corner;
-        const std::uint8_t texture = mesh.texture_ids[vertex];
+        const std::uint8_t texture = mesh.material_of(vertex).texture;
         ASSERT_EQ(texture == model::no_texture, look.texel == 0) << corner;
         if (look.texel != 0) {
             EXPECT_EQ(mesh.textures[texture].texels[0].r, look.texel) << corner;

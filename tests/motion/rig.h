@@ -71,7 +71,8 @@ private:
         mesh.uvs.resize(vertices);
         mesh.colors.resize(vertices, glm::u8vec4(255));
         mesh.slots.resize(vertices);
-        mesh.texture_ids.resize(vertices, model::no_texture);
+        mesh.materials.resize(1);
+        mesh.material_ids.resize(vertices);
     }
 
     // Of two nodes with the same slots, over runs that overlap; half of them with normals.

@@ -64,7 +64,8 @@ inline void add_tube(model::Mesh& mesh, int rings, int sides, int joints, Random
     mesh.uvs.resize(count);
     mesh.colors.resize(count, glm::u8vec4(255));
     mesh.slots.resize(count);
-    mesh.texture_ids.resize(count, model::no_texture);
+    mesh.materials.resize(1);
+    mesh.material_ids.resize(count);
 }
 
 // `joints` in a chain, a clip "writhe" of `duration` [s] with linear keys on every path of every joint.

@@ -31,6 +31,7 @@ model::Mesh patchwork(std::size_t triangles, std::uint64_t seed) {
     tests::Random random(seed);
     const auto byte = [&] { return static_cast<std::uint8_t>(random(0, 256)); };
     model::Mesh mesh;
+    mesh.materials = {{0}, {1}, {}};
     for (std::uint32_t i = 0; i < 3 * triangles; ++i) {
         mesh.indices.push_back(i);
         mesh.positions.push_back(random.vector(-9, 9));
@@ -38,8 +39,7 @@ model::Mesh patchwork(std::size_t triangles, std::uint64_t seed) {
         mesh.uvs.emplace_back(random(-2, 3), random(-2, 3));
         mesh.colors.emplace_back(byte(), byte(), byte(), byte());
         mesh.slots.push_back(static_cast<model::Slot>(byte() % (1 + model::slot_count)));
-        const std::uint8_t textures[] = {0, 1, model::no_texture};
-        mesh.texture_ids.push_back(textures[i / 3 % 3]);
+        mesh.material_ids.push_back(i / 3 % 3);
         mesh.joints.emplace_back(byte() % 6, byte() % 6, byte() % 6, byte() % 6);
         const glm::vec4 weights(random(0, 1), random(0, 1), random(0, 1), 0.0f);
         mesh.weights.push_back(weights / (weights.x + weights.y + weights.z));
@@ -150,7 +150,7 @@ TEST(Attributes, ColorsAreTextureTimesVertexInLightAtThePoint) {
         glm::dvec3 light = shares.mean<glm::dvec3>([&](std::uint32_t v) {
             return glm::dvec3(light_of(mesh.colors[v].r), light_of(mesh.colors[v].g), light_of(mesh.colors[v].b));
         });
-        const std::uint8_t texture = mesh.texture_ids[shares.vertex[0]];
+        const std::uint8_t texture = mesh.material_of(shares.vertex[0]).texture;
         if (texture != model::no_texture)
             light *= light_of_texture(mesh.textures[texture],
                                       shares.mean<glm::dvec2>([&](std::uint32_t v) { return mesh.uvs[v]; }));

@@ -337,7 +337,7 @@ TEST(Sampler, RefusesWhatNobodyCanSee) {
     for (glm::vec3& normal : turned.normals) normal = -normal;
     EXPECT_THROW(sample(turned, 100, true), std::runtime_error);
     EXPECT_NO_THROW(sample(turned, 100, false));
-    turned.double_sided = true;
+    turned.materials[0].double_sided = true;
     EXPECT_NO_THROW(sample(turned, 100, true));
 }
 
@@ -398,7 +398,7 @@ TEST(Sampler, SlotsAreTheNearestCorners) {
 TEST(Sampler, ColorsAreTextureTimesVertexInLinearLight) {
     model::Mesh mesh = tests::make_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
     mesh.textures.push_back({2, 1, {{0, 10, 255, 255}, {255, 10, 0, 255}}});
-    mesh.texture_ids.assign(3, 0);
+    mesh.materials[0].texture = 0;
     const auto color_at = [&](float u) {
         mesh.uvs.assign(3, glm::vec2(u, 0.3f));
         return sample(mesh, 1).colors[0];
@@ -417,7 +417,7 @@ TEST(Sampler, ColorsAreTextureTimesVertexInLinearLight) {
 TEST(Sampler, TheLargestTextureCoordinatesStayInTheTexture) {
     model::Mesh mesh = tests::make_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
     mesh.textures.push_back({3, 1, {{0, 10, 255, 255}, {255, 10, 0, 255}, {0, 10, 255, 255}}});
-    mesh.texture_ids.assign(3, 0);
+    mesh.materials[0].texture = 0;
     for (const float sign : {1.0f, -1.0f}) {
         mesh.uvs.assign(3, glm::vec2(sign * std::numeric_limits<float>::max()));
         for (const glm::u8vec4& color : sample(mesh, 2000).colors) ASSERT_EQ(color, glm::u8vec4(0, 10, 255, 255));

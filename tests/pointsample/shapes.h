@@ -18,7 +18,8 @@ inline void fill_looks(model::Mesh& mesh) {
     mesh.uvs.resize(count);
     mesh.colors.resize(count, glm::u8vec4(255));
     mesh.slots.resize(count, model::no_slot);
-    mesh.texture_ids.resize(count, model::no_texture);
+    mesh.materials.resize(1);
+    mesh.material_ids.resize(count);
     mesh.joints.resize(count, glm::u16vec4(0));
     mesh.weights.resize(count, glm::vec4(1, 0, 0, 0));
 }

@@ -17,8 +17,8 @@ enum Node : std::uint16_t { root, chest, mirrored };
 struct Part {
     glm::vec3 center, half;  // [m]
     Node lower = root, upper = root;
-    std::uint8_t texture = model::no_texture;
-    bool dyed = false;  // in slots
+    std::uint16_t material = 0;  // plain, then one a texture
+    bool dyed = false;           // in slots
 };
 
 void add_vertex(model::Mesh& mesh, const Part& part, glm::vec3 position, glm::vec3 normal, glm::vec2 uv,
@@ -29,7 +29,7 @@ void add_vertex(model::Mesh& mesh, const Part& part, glm::vec3 position, glm::ve
     mesh.uvs.push_back(uv);
     mesh.colors.push_back(color);
     mesh.slots.push_back(slot);
-    mesh.texture_ids.push_back(part.texture);
+    mesh.material_ids.push_back(part.material);
     mesh.joints.push_back({part.lower, part.upper, 0, 0});
     mesh.weights.push_back({1 - share, share, 0, 0});
 }
@@ -67,7 +67,7 @@ void add_sheet(model::Mesh& mesh) {
     constexpr int cells = 6;
     const Part plain{{-0.75f, 1.0f, 0}, {0.35f, 0.45f, 0}, chest, chest};
     Part textured = plain;
-    textured.texture = 1;
+    textured.material = 2;
     for (int j = 0; j < cells; ++j) {
         for (int i = 0; i < cells; ++i) {
             const auto first = static_cast<std::uint32_t>(mesh.vertex_count());
@@ -147,13 +147,13 @@ model::Character make_harlequin(bool open) {
     model::Mesh& mesh = harlequin.mesh;
     mesh.textures = {make_texture(8, 8, {37, 53, 29}), make_texture(24, 10, {61, 17, 43})};
     if (open) std::swap(mesh.textures[0], mesh.textures[1]);  // nor do two harlequins share theirs
-    add_box(mesh, {{0, 0.9f, 0}, {0.28f, 0.45f, 0.17f}, root, chest, model::no_texture, true});
-    add_box(mesh, {{0.05f, 1.55f, 0.05f}, {0.14f, 0.18f, 0.16f}, chest, chest, 0});
-    add_box(mesh, {{0.45f, 1.1f, 0.1f}, {0.12f, 0.35f, 0.1f}, chest, chest, 1});
+    mesh.materials = {{model::no_texture, false}, {0, false}, {1, open}};
+    add_box(mesh, {{0, 0.9f, 0}, {0.28f, 0.45f, 0.17f}, root, chest, 0, true});
+    add_box(mesh, {{0.05f, 1.55f, 0.05f}, {0.14f, 0.18f, 0.16f}, chest, chest, 1});
+    add_box(mesh, {{0.45f, 1.1f, 0.1f}, {0.12f, 0.35f, 0.1f}, chest, chest, 2});
     add_box(mesh, {{0.12f, 0.2f, 0}, {0.09f, 0.2f, 0.2f}, mirrored, mirrored});
     add_box(mesh, {{0.12f, 0.2f, 0}, {0.09f, 0.2f, 0.12f}, root, root});
     if (open) add_sheet(mesh);
-    mesh.double_sided = open;
 
     model::MorphTarget belly;
     belly.node = root;

@@ -155,6 +155,13 @@ private:
         return slot == 0 ? glm::dvec3(1) : linear(person.palette.colors[slot - 1]);
     }
 
+    // A figure is seen from both sides if any of its materials is.
+    static bool open(const model::Mesh& mesh) {
+        bool any = false;
+        for (const model::Material& material : mesh.materials) any |= material.double_sided;
+        return any;
+    }
+
     // Light on a vertex or point; of a surface that is seen from both sides, on the side that is seen.
     static Shade light_seen(const glm::dvec3& normal, const glm::dvec3& at, bool both_sides) {
         const double facing = -glm::dot(normal, glm::normalize(at));
@@ -174,11 +181,11 @@ private:
         for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
             at.push_back(origin + person.scale * (axes * surface.positions[v]));
             albedo.push_back(linear(mesh.colors[v]) * tint_of(person, mesh.slots[v]));
-            light.push_back(light_seen(axes * surface.normals[v], at[v], mesh.double_sided));
+            light.push_back(light_seen(axes * surface.normals[v], at[v], open(mesh)));
         }
         for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
             const std::uint32_t a = mesh.indices[i], b = mesh.indices[i + 1], c = mesh.indices[i + 2];
-            triangle({at[a], at[b], at[c]}, mesh.double_sided, [&](const Spot& spot) {
+            triangle({at[a], at[b], at[c]}, open(mesh), [&](const Spot& spot) {
                 const auto blend = [](const auto& x, const auto& y, const auto& z, const glm::dvec3& by) {
                     return by.x * x + by.y * y + by.z * z;
                 };
@@ -186,9 +193,10 @@ private:
                     return blend(glm::dvec2(mesh.uvs[a]), glm::dvec2(mesh.uvs[b]), glm::dvec2(mesh.uvs[c]), by);
                 };
                 Shade texel = Shade::exactly(glm::dvec3(1));
-                if (mesh.texture_ids[c] != model::no_texture) {
+                const int texture = mesh.materials[mesh.material_ids[c]].texture;
+                if (texture != model::no_texture) {
                     const glm::dvec2 here = uv(spot.share);
-                    texel = texels(mesh, mesh.texture_ids[c], here, uv(spot.right) - here, uv(spot.below) - here);
+                    texel = texels(mesh, texture, here, uv(spot.right) - here, uv(spot.below) - here);
                 }
                 const glm::dvec3 own = blend(albedo[a], albedo[b], albedo[c], spot.share);
                 return Shade::between(
@@ -278,7 +286,7 @@ private:
         const model::Mesh& mesh = person.figure->mesh();
         const Surface& surface = person.figure->pose(person.slot, person.tick);
         const std::vector<Figure::Look>& looks = person.figure->looks(person.points);
-        const bool both_sides = mesh.double_sided || person.points <= few;
+        const bool both_sides = open(mesh) || person.points <= few;
         const glm::dmat3 axes = axes_of(person);
         for (std::size_t p = 0; p < person.points; ++p) {
             const motion::SurfacePoint& spot = person.figure->points().surface[p];

@@ -17,6 +17,7 @@ inline model::Character make_lift(float half_width, float rise, double seconds, 
     model::Character lift;
     lift.name = "lift";
     model::Mesh& mesh = lift.mesh;
+    mesh.materials.resize(1);
     const glm::vec3 half(half_width, 0.9f, half_width), center(0, 0.9f, 0);
     for (int face = 0; face < 6; ++face) {
         glm::vec3 normal(0), right(0);
@@ -33,7 +34,7 @@ inline model::Character make_lift(float half_width, float rise, double seconds, 
                 mesh.uvs.emplace_back(0);
                 mesh.colors.emplace_back(200, 200, 200, 255);
                 mesh.slots.push_back(model::no_slot);
-                mesh.texture_ids.push_back(model::no_texture);
+                mesh.material_ids.push_back(0);
                 mesh.joints.emplace_back(0);
                 mesh.weights.emplace_back(1, 0, 0, 0);
             }

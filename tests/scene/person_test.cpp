@@ -57,7 +57,7 @@ TEST(Person, FillsEveryVertexArray) {
     EXPECT_EQ(mesh.uvs.size(), count);
     EXPECT_EQ(mesh.colors.size(), count);
     EXPECT_EQ(mesh.slots.size(), count);
-    EXPECT_EQ(mesh.texture_ids.size(), count);
+    EXPECT_EQ(mesh.material_ids.size(), count);
     EXPECT_EQ(mesh.joints.size(), count);
     EXPECT_EQ(mesh.weights.size(), count);
     for (const std::uint32_t index : mesh.indices) ASSERT_LT(index, count);
