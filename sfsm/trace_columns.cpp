@@ -217,8 +217,8 @@ constexpr TraceColumn count_column() {
             [](TraceRow& row, std::string_view field) { return Count::read(field, row.work.counts[kind]); }};
 }
 
-template <std::size_t... kind>
-constexpr auto columns_with(std::index_sequence<kind...>) {
+template <std::size_t... first, std::size_t... later>
+constexpr auto columns_with(std::index_sequence<first...>, std::index_sequence<later...>) {
     using Row = TraceRow;
     return std::array{
         column<Count, &Row::frame>("frame", "", "counts from 0"),
@@ -233,17 +233,20 @@ constexpr auto columns_with(std::index_sequence<kind...>) {
                                                                      "D: people beyond it move less often"),
         column<SplatSize, &Row::decision, &Decision::splat_size>("splat_px", "px",
                                                                  "S: the size of the points in state 2"),
-        count_column<kind>()...,
+        count_column<first>()...,
         column<Number, &Row::range>("range_m", "m", "L: how far people are visible, as the law was told"),
+        count_column<first_kinds + later>()...,
         column<MaybeState, &Row::drawn_state>(
-            "drawn_state", "", "2: somebody was drawn by points; 1: somebody moved less often; 0: neither", optional),
+            "drawn_state", "",
+            "2: somebody was drawn by less than their triangles; 1: somebody moved less often; 0: neither", optional),
         column<MaybeNumber, &Row::predicted_ms>("predicted_ms", "ms", "what the law expected of this frame", optional),
         column<Steps<WorkAxis::motion>, &Row::motion>("motion_steps", "", "the forecast: its steps of D", optional),
         column<Steps<WorkAxis::shape>, &Row::shapes>("splat_steps", "", "the forecast: its steps of S", optional),
     };
 }
 
-constexpr auto columns = columns_with(std::make_index_sequence<work_kinds>());
+constexpr auto columns =
+    columns_with(std::make_index_sequence<first_kinds>(), std::make_index_sequence<work_kinds - first_kinds>());
 
 std::string names(bool is_wanted(const TraceColumn&)) {
     std::string list;
