@@ -1,6 +1,7 @@
 #include "apps/stage.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "apps/interrupt.h"
 #include "apps/progress.h"
@@ -11,6 +12,7 @@
 #include "scene/cast.h"
 #include "scene/person.h"
 #include "scene/places/stadium.h"
+#include "sfsm/work.h"
 
 namespace apps {
 
@@ -19,10 +21,13 @@ namespace {
 // Posed vertices and points of all characters together; what the device holds is twice that.
 constexpr std::size_t pose_byte_budget = std::size_t{256} << 20;
 
-// More points than half its triangles are never drawn of a character: triangles are cheaper then (SelectOptions).
+// As many points as are believed to cost what its triangles do: more are never drawn of a character.
 std::size_t point_count(const model::Mesh& mesh) {
     constexpr std::size_t fewest = 64, most = 16384;
-    return std::clamp(mesh.triangle_count() / 2, fewest, most);
+    constexpr auto pieces = [](sfsm::WorkKind kind) { return sfsm::entry_of(kind).prior.pieces; };
+    constexpr double points_a_triangle = pieces(sfsm::WorkKind::triangle) / pieces(sfsm::WorkKind::point);
+    const double count = std::floor(points_a_triangle * static_cast<double>(mesh.triangle_count()));
+    return std::clamp(static_cast<std::size_t>(count), fewest, most);
 }
 
 // The first pose is the one that most people are seen in, where limbs are apart.
