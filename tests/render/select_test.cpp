@@ -8,6 +8,7 @@
 #include <set>
 #include <tuple>
 
+#include "sfsm/prices.h"
 #include "tests/render/batches.h"
 #include "tests/render/small_scene.h"
 
@@ -46,6 +47,11 @@ bool same_bits(const Frame& a, const Frame& b) {
            std::memcmp(a.instances.data(), b.instances.data(), a.instances.size() * sizeof(render::Instance)) == 0 &&
            std::memcmp(a.batches.data(), b.batches.data(), a.batches.size() * sizeof(render::Batch)) == 0 &&
            a.work == b.work;
+}
+
+// [pieces] What people's shapes are believed to cost.
+double shape_cost(const sfsm::Work& work) {
+    return sfsm::cost_of(sfsm::only_on<sfsm::WorkAxis::shape>(work), {0, figures::believed_pieces});
 }
 
 // [m] Where every `stride`-th vertex of a person is in the world.
@@ -114,7 +120,7 @@ TEST(Selection, WorkIsTheSumOverItsBatches) {
     for (const render::Batch& batch : selection.batches) {
         people += batch.instance_count;
         points += std::int64_t{tests::points_each(batch)} * batch.instance_count;
-        if (tests::points_each(batch) == 0)
+        if (figures::representations()[batch.representation].is_mesh)
             triangles += std::int64_t{batch.instance_count} *
                          static_cast<std::int64_t>(small_scene().person.mesh.triangle_count());
     }
@@ -124,8 +130,8 @@ TEST(Selection, WorkIsTheSumOverItsBatches) {
     EXPECT_GT(points, 0);
 }
 
-// Whatever was asked for: a frame in which nobody is a point is not of state 2, and one in which everybody moves in every
-// frame not of state 1.
+// Whatever was asked for: a frame in which nobody is a point is not of state 2, and one in which everybody moves in
+// every frame not of state 1.
 TEST(Selection, StateFollowsFromWhatWasDrawn) {
     const render::View still = view_of("still"), close = view_of("close");
     const double far = 2 * 300;  // [m] beyond everybody
@@ -139,12 +145,10 @@ TEST(Selection, StateFollowsFromWhatWasDrawn) {
 }
 
 TEST(Selection, LargerSplatsNeverCostMore) {
-    const auto price = [](const Frame& s) {
-        return 2 * s.work[sfsm::WorkKind::point] + s.work[sfsm::WorkKind::triangle];
-    };  // as SelectOptions has it
-    std::int64_t last = price(select_once(view_of("still"), {}));
+    const auto price = [](const Frame& frame) { return shape_cost(frame.work); };
+    double last = price(select_once(view_of("still"), {}));
     for (double splat_size = 0.25; splat_size <= 32; splat_size *= 1.3) {
-        const std::int64_t now = price(select_once(view_of("still"), points_of(splat_size)));
+        const double now = price(select_once(view_of("still"), points_of(splat_size)));
         EXPECT_LE(now, last) << "S = " << splat_size;
         last = now;
     }
@@ -264,11 +268,8 @@ TEST(Forecast, CountsWhatSelectionDraws) {
             const Decision decision = step.setting == 0 ? Decision{} : points_of(step.setting);
             const sfsm::Work work = selector.select(decision, 99).work;
             EXPECT_EQ(forecast.people, work[sfsm::WorkKind::person]);
-            // In units of price: what changes from triangles to points is counted in both.
-            const double price = 2.0 * static_cast<double>(work[sfsm::WorkKind::point]) +
-                                 static_cast<double>(work[sfsm::WorkKind::triangle]);
-            const double foreseen = 2.0 * static_cast<double>(step.work[sfsm::WorkKind::point]) +
-                                    static_cast<double>(step.work[sfsm::WorkKind::triangle]);
+            // In units of price: what changes from one kind to another is counted in both.
+            const double price = shape_cost(work), foreseen = shape_cost(step.work);
             EXPECT_NEAR(foreseen, price, bin_error * price) << preset << ", S = " << step.setting;
         }
     }
