@@ -25,10 +25,11 @@ struct SampleOptions {
     bool visible_only = true;  // no points that can't be seen from outside in any of the poses
 };
 
-// Points of the first pose's surface; at least one pose. Where other poses are given, each triangle has the points that
-// it needs where it is stretched most, and a point stays if it is seen in any pose. The same bits on every run and
-// thread count. Every count is a sequence of its own: smaller models are its prefixes, and not those of another count.
-// Triangles without a finite area in the first pose get none. `progress` gets rising fractions, 1 in the end.
+// Points of the first pose's surface: the same bits on every run and thread count.
+//   poses      at least one. Each triangle gets the points that it needs in the pose that stretches it most; a
+//              point stays if it is seen in any pose. Triangles without a finite area in the first pose get none.
+//   options    every count is a sequence of its own: smaller models are its prefixes, and not those of another count.
+//   progress   gets rising fractions, 1 in the end
 //
 //              time [us a point]   memory [bytes a point]
 //   progressive        5             800 up to 200,000 points, with 16 candidates each; of more points each has fewer

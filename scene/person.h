@@ -5,11 +5,14 @@
 
 namespace scene {
 
-// A closed humanoid of just under 1,300 triangles and 19 joints, 1.75 m tall standing, feet at y = 0, facing +z,
-// with the clips "sit", "clap", "cheer", "wave" (spectators: 4 s each, all starting and ending in the same seated
-// pose, so that they can follow one another; the seat's surface is at y = seat_height, the hips over the origin, the
-// feet 0.37 m in front of it, which is where "cheer" stands up), and "stand" (4 s), "walk" (1 s), "run" (0.7 s; both in
-// place, one cycle = two steps, speeds below). Shoes and eyes are in no slot.
+// A closed humanoid of just under 1,300 triangles and 19 joints: 1.75 m tall standing, feet at y = 0, facing +z.
+// Its clips:
+//   sit, clap, cheer, wave   4 s each, of spectators. All begin and end in one seated pose, so that any can follow any.
+//                            The seat is at y = seat_height, the hips are over the origin, the feet 0.37 m before it:
+//                            there "cheer" stands up.
+//   stand                    4 s
+//   walk, run                1 s and 0.7 s, on the spot: one cycle is two steps, at the speeds below.
+// Shoes and eyes are in no slot.
 model::Character make_person();
 
 // What its slots are (model/slot.h).

@@ -23,17 +23,16 @@ struct CostFit {
     std::array<double, 7> residual{};
 };
 
-// The prices of the least Huber loss of time / model - 1, none below 0. Noise is relative, so residuals are; a pause
-// that takes fifty times as long weighs no more than a frame that is off by the usual noise. Where residuals are like
-// the ones before them, only the differences are fitted: a machine's drift is no price.
-//
-// Rows can't tell the price of a kind that was never drawn, or whose count hardly changed. There a belief decides: the
-// fit_pieces and fit_spread of work_table. Of the kinds of shapes the known ones tell of the others. So the time of a
-// constant number of people is shared between them and the frame, and triangles that were never drawn are not free. The
-// belief is weak against hundreds of frames with some per cent of noise, and moves nothing where there is no noise.
-//
-// Rows without a time, or one more than a thousandfold from the median, are left out. Throws std::runtime_error where
-// fewer than 16 are left, or no work is counted in any.
+// The prices, none below 0, of the least Huber loss of time / model - 1.
+// - Residuals are relative, since noise is. A pause fifty times as long weighs as much as a frame that is somewhat off.
+// - Where a residual is like the one before it, only their difference is fitted: a machine that drifts has no
+//   new prices.
+// - Rows can't tell the price of a kind that was never drawn, or whose count hardly changed. There the belief of
+//   work_table decides (fit_pieces, fit_spread), and a known kind of shape tells of the others: triangles that were
+//   never drawn are not free, and the time of a constant crowd is shared between its people and the frame.
+// - That belief is weak against hundreds of noisy frames, and moves nothing where there is no noise.
+// - Left out: rows without a time, or with one more than a thousandfold from the median.
+// Throws std::runtime_error where fewer than 16 rows are left, or no work is counted in any.
 CostFit fit_costs(std::span<const TraceRow> rows);
 
 // A time that a frame can take at all: from a nanosecond to eleven days.

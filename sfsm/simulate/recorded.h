@@ -24,10 +24,12 @@ struct RecordedOptions {
 
 // The run in a closed loop, without any noise but what the load brings; frame k is rows[k], whatever its number.
 //
-// Work is interpolated between the steps of a forecast as forecast.h says. A forecast can't be used if it is empty, not
-// in order or not finite; a range if it is not finite and over 0; a time if no frame can take it (is_frame_time). Each
-// is then taken from the last row before that has a usable one, or for the first rows from the first that has. A trace
-// of ours in which no row has a forecast is treated as foreign; its D are rescaled to the reference crowd's range.
+// Work is interpolated between the steps of a forecast as forecast.h says. What a row lacks is taken from the last row
+// before it that has it, or for the first rows from the first that has. A row lacks
+// - a forecast that is empty, not in order or not finite,
+// - a range that is not finite and over 0,
+// - a time that no frame can take (is_frame_time).
+// A trace of ours without any forecast is treated as foreign: its D are rescaled to the reference crowd's range.
 //
 // Throws std::runtime_error where no row has a time, as fit_costs does where it is needed, and std::invalid_argument
 // where a target is not one (target.h).
