@@ -23,6 +23,10 @@ struct Picture {
     std::string name, arguments;
 };
 
+void PrintTo(const Picture& picture, std::ostream* out) {
+    *out << picture.name;
+}
+
 std::vector<Picture> pictures() {
     const std::vector<Picture> ways{{"state-0", "--state 0"},
                                     {"state-1", "--state 1 --motion-distance 20"},
