@@ -39,21 +39,23 @@ struct PoseTable {
     std::vector<PosedVertex> points;    // [pose * point_count + point]
     Bounds box;                         // holds every posed vertex of every pose: [model units]
     std::vector<Bounds> clip_boxes;     // the same for each clip
-    // Of the first clip's first pose, in which the character stands [model units]: its y extent, > 0, which a person's
-    // height is scaled by (of a flat pose the box's longest side), and its lowest y, which goes on the ground.
-    float rest_height = 0;
-    float floor = 0;
-    float area = 0;  // largest surface area over the poses [model units^2]
+    // Of the first clip's first pose, in which the character stands [model units].
+    float rest_height = 0;  // y extent, > 0: people's heights are scaled by it; of a flat pose the box's longest side
+    float floor = 0;        // lowest y, which goes on the ground
+    float area = 0;         // largest surface area over the poses [model units^2]
 
     // Of clip `clip` (into clips) at integer time `tick` of its own; wraps.
     int pose_at(int clip, std::int64_t tick) const;
 };
 
-// Bakes `clips` (indices into character.clips; empty = the rest pose alone) at 60 Hz, or at the first of 30, 20, 15 Hz
-// ... that keeps vertices and points within `byte_budget`. A clip is a loop: its period is its duration rounded to
-// whole poses (at least one), and the pose at the duration is the first again. The same bits on every thread count.
-// `points` may be empty. `progress` gets fractions in [0, 1]. Throws std::runtime_error if even one pose a clip is more
-// than the budget, or if the mesh is empty or flat in every pose.
+// Skins all poses.
+//   clips        indices into character.clips; none: the rest pose alone
+//   points       may be none
+//   byte_budget  [bytes] for vertices and points: poses come at 60 Hz, or at the first of 30, 20, 15 Hz ... that fits
+//   progress     gets fractions in [0, 1]
+// A clip is a loop: it lasts its duration, rounded to whole poses (at least one), and then its first pose comes again.
+// The same bits on every thread count. Throws std::runtime_error if one pose a clip is more than the budget, or if the
+// mesh is empty or flat in every pose.
 PoseTable bake_poses(const model::Character& character, std::span<const int> clips,
                      std::span<const SurfacePoint> points, std::size_t byte_budget,
                      const std::function<void(double)>& progress = {});

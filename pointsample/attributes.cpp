@@ -74,7 +74,9 @@ glm::vec3 normal_of(const Corners& corners, const PosedMesh& pose) {
 glm::u8vec4 color_of(const Mesh& mesh, const Corners& corners) {
     glm::vec3 light = corners.blend([&](std::uint32_t i) { return linear(mesh.colors[i]); });
     const float alpha = corners.blend([&](std::uint32_t i) { return static_cast<float>(mesh.colors[i].a); });
-    const std::uint8_t texture = mesh.material_of(corners.vertex[0]).texture;
+    // Most scans have none: that spares them a look somewhere in memory for each point.
+    const std::uint8_t texture =
+        mesh.textures.empty() ? model::no_texture : mesh.material_of(corners.vertex[0]).texture;
     if (texture != model::no_texture)
         light *= texture_at(mesh.textures[texture], corners.blend([&](std::uint32_t i) { return mesh.uvs[i]; }));
     return {model::srgb_of_linear(light.r), model::srgb_of_linear(light.g), model::srgb_of_linear(light.b),

@@ -18,8 +18,11 @@ struct FarthestOrder {
     std::vector<float> radius;   // at each mark: the largest distance of a candidate
 };
 
-// `count` in [1, candidates.count] points, which begin with `first`: different candidates, 1 to count of them. `marks`:
-// rising numbers of points in [1, count]. `progress` gets rising fractions. Ties go to the candidate that comes first.
+// Each next point is the candidate farthest from all before it; of equals the one that comes first.
+//   count     points, in [1, candidates.count]
+//   first     which the order begins with: different candidates, 1 to count of them
+//   marks     rising numbers of points in [1, count]
+//   progress  gets rising fractions
 // Time is O(n log n + m log n) for n points of m candidates that come in compact runs: 3 microseconds a point at m = 16
 // n.
 FarthestOrder farthest_order(Candidates& candidates, std::size_t count, std::span<const std::uint32_t> first,

@@ -15,9 +15,9 @@ public:
     // Keeps a reference.
     HiddenTest(const Surface& surface, bool two_sided);
 
-    // One element a point: 0 if it is hidden in every pose. Points that come in runs of neighbours are fastest. A pose
-    // is looked at only for points hidden in all before it, and its ray-tracing scene is built when it is first needed
-    // and kept. In parallel; the same on any number of threads.
+    // One element a point: 0 if it is hidden in every pose. Fastest where neighbours follow one another. A later pose
+    // is looked at only for points that are hidden in all before it; its ray-tracing scene is built when it is first
+    // needed, and kept. In parallel; the same on any number of threads.
     std::vector<char> visible(std::span<const motion::SurfacePoint> points);
 
 private:

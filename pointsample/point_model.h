@@ -30,8 +30,8 @@ struct PointModel {
     std::vector<glm::u16vec4> joints;  // the four heaviest of the triangle's
     std::vector<glm::vec4> weights;    // >= 0, sum 1
     // [units] From each point to the nearest before it, in the pose in which the surface there is stretched most; twice
-    // as far where faces oppose. Infinite for the first, never more than that of the one before. Of an even model in
-    // the order it is given in; of a uniform one the expectation, sqrt(area / i) / 2 at point i.
+    // as far where faces oppose. Infinite for the first, and never rises. In a uniform model not measured but expected:
+    // sqrt(area / i) / 2 at point i.
     std::vector<float> spacing;
     // By rising points (1, 2, 3, 4, 6, 8, 12 ...), the last of all points; the radius never rises. Measured
     // (coverage.h).
@@ -41,9 +41,10 @@ struct PointModel {
 
     std::size_t size() const { return positions.size(); }
 
-    // The fewest points that leave no hole in any pose when each is drawn as a square of `splat_px` [px] and a unit is
-    // `pixels_per_unit` [px] long; size() + 1 if all together leave one. A person of h pixels has h / height of them.
-    // Between the entries of `coverage`, which may not be empty, the radius is taken to fall as a power.
+    // The fewest points that leave no hole in any pose; size() + 1 if all together leave one. Needs `coverage`, between
+    // whose entries the radius is taken to fall as a power.
+    //   pixels_per_unit  [px] how long a unit is: h / height for a person of h pixels
+    //   splat_px         [px] side of the square that a point is drawn as
     std::size_t hole_free_points(float pixels_per_unit, float splat_px) const;
 };
 

@@ -37,8 +37,11 @@ public:
     std::span<const PackedPoint> points() const;     // in the model's order
     const std::string& key() const { return key_; }  // what it was made from, as write_pts was told
 
-    // Everything: exact but for positions (half a step of the box / 65535 an axis), normals (0.017 rad), u and v (half
-    // a step of 1 / 65535) and weights (1 / 255, sum 1). Written and read again it is the same bits.
+    // Everything; written and read again it is the same bits. Exact, but for
+    //   positions  half a step of the box / 65535 an axis
+    //   normals    0.017 rad
+    //   u, v       half a step of 1 / 65535
+    //   weights    1 / 255; their sum is 1
     PointModel unpack() const;
 
 private:

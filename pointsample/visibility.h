@@ -19,11 +19,11 @@ public:
     Visibility(const Visibility&) = delete;
     Visibility& operator=(const Visibility&) = delete;
 
-    // For each place whether a ray from it leaves the mesh unhindered: on the side of its normal (on either if
-    // `two_sided`), in any of 64 directions that are at least 2 degrees above the surface. Neighbours are to come one
-    // after another: a point is first asked in the direction in which the one before it saw out, and after one that saw
-    // nothing in eight directions only, others each time. So a hole of a twentieth of the sky is found for all points,
-    // and a smaller one for some. In parallel, with the same result on any number of threads.
+    // For each place, whether a ray from it leaves the mesh unhindered: on the side of its normal, or on either if
+    // `two_sided`. There are 64 directions, at least 2 degrees above the surface. Neighbours are to follow one another:
+    // each is first asked in the direction in which the one before it saw out; after one that saw nothing, in eight
+    // directions only, others each time. So a hole of a twentieth of the sky is found for all, a smaller one for some.
+    // In parallel; the same on any number of threads.
     std::vector<char> look(std::span<const Place> places, bool two_sided) const;
 
 private:

@@ -19,9 +19,9 @@ namespace render {
 
 struct SelectOptions {
     float theta = motion::default_theta;  // eq. 1's constant [1/m]
-    // Points per splat-sized square of the whole surface. A quarter of a convex body's surface is its silhouette and
-    // half its points face away: 1.2 puts more than two facing points on every square that is to be covered, and leaves
-    // about one in fifty open. Fewer leave more holes, more make people fatter.
+    // Points per splat-sized square of the whole surface. A convex body shows a quarter of its surface by half of its
+    // points: 1.2 puts more than two on every square that is to be covered, and leaves about one in fifty open. Fewer
+    // leave more holes, more make people fatter.
     float density = 1.2f;
     // What one of each kind of work costs: of all levels that serve a person, the cheapest is drawn.
     std::array<double, sfsm::work_kinds> pieces = figures::believed_pieces;

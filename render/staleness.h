@@ -1,5 +1,5 @@
-// How far off a person's surface is who moved some ticks ago: measured on the crowd itself, so that who sits still, who
-// waves and who runs each count as what they do.
+// How far off a person's surface is if they last moved some ticks ago. Measured on the crowd itself, so that sitting,
+// waving and running each count as what they are.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace render {
 
-// [m] by update period f [ticks], from 0 to max_period: the mean over ages 0 to f - 1 of how far the surface is from
-// where it should be. 0 for f = 0 and 1.
+// [m] How far the surface is from where it should be, by update period f in [0, max_period] [ticks]: the mean over ages
+// 0 to f - 1. 0 for f = 0 and 1.
 using Staleness = std::array<float, motion::max_period + 1>;
 
 // By character, then role; zero for a role that nobody has. A few hundred people of each are looked at, at ticks spread

@@ -27,8 +27,8 @@ public:
     // Reads the libraries that a line `mtllib NAMES` names. One that is missing has no materials.
     void add_libraries(std::string_view names);
 
-    // White without texture if there is no such material; a texture that is missing is none. Decodes it when it is
-    // first asked for. Throws std::runtime_error if it is damaged, or the 256th.
+    // White without texture if there is no such material, without texture if its file is missing. A texture is decoded
+    // when it is first asked for. Throws std::runtime_error if it is damaged, or the 256th.
     ObjLook look_of(std::string_view name);
 
     std::vector<Texture> take_textures() { return std::move(textures_); }
