@@ -59,6 +59,18 @@ TEST(Choices, AreTheCheapestThatServe) {
     }
 }
 
+TEST(Choices, ServeExactlyAsMuchAsTheyReach) {
+    const Character character(5000, 2500);
+    const Choices choices(character.figure(), figures::believed_pieces);
+    for (std::uint32_t i = 0; i < choices.all().size(); ++i) {
+        const float reach = choices.all()[i].level.reach;
+        EXPECT_EQ(choices.at(reach), i) << "reach " << reach;
+        if (!std::isinf(reach)) {
+            EXPECT_NE(choices.at(std::nextafter(reach, 2 * reach)), i) << "reach " << reach;
+        }
+    }
+}
+
 TEST(Choices, OfEqualCostAreTheLaterRepresentations) {
     const Character character(64, 64);  // 32 points cost what the triangles do
     const Choices choices(character.figure(), at_price(2));

@@ -26,14 +26,15 @@ render::View view_from(glm::dvec3 position, glm::dvec3 along, double fov_y = 0.9
     return render::make_view({position, position + along, fov_y}, width, height);
 }
 
-// The box of a still figure shows if one of its corners does or, in views narrower than it, one of many spots on it.
-bool some_spot_shows(const render::View& view, glm::dvec3 feet) {
+// A still figure of this breadth and depth [m] shows if one of its box' corners does or, in views narrower than it, one
+// of many spots in it.
+bool some_spot_shows(const render::View& view, glm::dvec3 feet, glm::dvec2 half) {
     constexpr int steps = 12;
     for (int i = 0; i <= steps; ++i)
         for (int j = 0; j <= steps; ++j)
             for (int k = 0; k <= steps; ++k) {
-                const glm::dvec3 spot = feet + glm::dvec3(body_half * (2.0 * i / steps - 1), 1.8 * j / steps,
-                                                          body_half * (2.0 * k / steps - 1));
+                const glm::dvec3 spot =
+                    feet + glm::dvec3(half.x * (2.0 * i / steps - 1), 1.8 * j / steps, half.y * (2.0 * k / steps - 1));
                 const glm::dvec3 seen = spot - view.position;
                 const double depth = glm::dot(seen, glm::dvec3(view.forward));
                 if (depth > render::near_plane &&
@@ -44,15 +45,22 @@ bool some_spot_shows(const render::View& view, glm::dvec3 feet) {
     return false;
 }
 
-TEST(LonePerson, IsSelectedAtEveryEdgeOfTheView) {
+struct Views {
+    int shown = 0, kept = 0;  // of those where they show, and where they are selected
+};
+
+// Looks near and far past somebody of this breadth and depth [m]: they must be selected wherever they show.
+Views look_past(glm::vec2 half) {
     const glm::vec3 feet(3, 1, -2);
+    model::Character character = tests::make_lift(half.x, 0, 0.5, 1);
+    for (glm::vec3& position : character.mesh.positions) position.z *= half.y / half.x;
     // One wide block as well, so that the person is judged and not their block.
-    tests::LonePeople lone(tests::make_lift(body_half, 0, 0.5, 1), {&feet, 1});
+    tests::LonePeople lone(std::move(character), {&feet, 1});
     lone.crowd.blocks[0].box = {feet - 50.0f, feet + 50.0f};
     Selector selector(lone.crowd, lone.cast, lone.figures());
     std::mt19937_64 random(1);
     const auto unit = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
-    int shown = 0, kept = 0;
+    Views views;
     for (int i = 0; i < 4000; ++i) {
         const double azimuth = 6.283 * unit(), elevation = 1.2 * unit() - 0.6, distance = 0.3 + 12 * unit() * unit();
         const glm::dvec3 back(std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
@@ -61,13 +69,24 @@ TEST(LonePerson, IsSelectedAtEveryEdgeOfTheView) {
         const glm::dvec3 askew(2 * unit() - 1, 2 * unit() - 1, 2 * unit() - 1);
         const render::View view = view_from(camera, askew - back);
         const std::int64_t selected = selector.survey(view, 0).forecast.people;
-        const bool shows = some_spot_shows(view, feet);
+        const bool shows = some_spot_shows(view, feet, half);
         EXPECT_TRUE(selected == 1 || !shows) << "view " << i;
-        shown += shows;
-        kept += selected == 1;
+        views.shown += shows;
+        views.kept += selected == 1;
     }
+    return views;
+}
+
+TEST(LonePerson, IsSelectedAtEveryEdgeOfTheView) {
+    const Views views = look_past({body_half, body_half});
     // The ball around a standing body is loose at its sides; looser it would be of no use.
-    EXPECT_LT(kept, shown + shown / 4);
+    EXPECT_LT(views.kept, views.shown + views.shown / 4);
+}
+
+// Such as beasts are.
+TEST(LonePerson, IsSelectedHoweverLongOrBroad) {
+    EXPECT_GT(look_past({0.2f, 1.6f}).shown, 1000);
+    EXPECT_GT(look_past({1.6f, 0.2f}).shown, 1000);
 }
 
 TEST(LonePerson, IsDrawnWholeByWhoeverStandsInThem) {

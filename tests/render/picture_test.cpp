@@ -218,6 +218,32 @@ TEST_F(Picture, IsLitByItsPlace) {
     }
 }
 
+TEST_F(Picture, OfAFigureWithoutPointsIsOfItsTriangles) {
+    tests::SmallScene scene(1);
+    scene.points = {};
+    scene.poses[0].points.clear();
+    scene.poses[0].point_count = 0;
+    const scene::StaticMesh nothing{{{}, {}, {}}, {0, 0, 0}, {}};
+    render::gl::Renderer renderer(nothing, {}, {}, scene.figures(), width, height);
+    render::Selector selector(scene.crowd, scene.cast, scene.figures());
+    Portrait portrait;
+    const render::View view = portrait.view(3.0);
+    selector.survey(view, 0);
+    renderer.draw(selector.select({sfsm::State::points, 100, 8}, -1));
+    EXPECT_EQ(renderer.read_image().pixels, portrait.draw(view, {}).pixels);
+}
+
+TEST_F(Picture, KeepsItsSizeWhenTheDriverHasNoneSoLarge) {
+    Portrait portrait;
+    GLint largest = 0;
+    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
+    const render::View view = portrait.view(3.0);
+    const render::Image before = portrait.draw(view, {});
+    EXPECT_THROW(portrait.renderer.resize(largest + 1, height), std::runtime_error);
+    EXPECT_THROW(portrait.renderer.resize(width, largest + 1), std::runtime_error);
+    EXPECT_EQ(portrait.draw(view, {}).pixels, before.pixels);
+}
+
 // The stadium's ground from straight above, 30 m from its middle, with parameters that put each of its parts there.
 TEST_F(Picture, OfTheGroundIsWhatItsPlaceSays) {
     scene::StaticMeshBuilder builder;

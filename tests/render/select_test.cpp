@@ -208,6 +208,7 @@ TEST(Survey, OfNobodyCostsAndLosesNothing) {
 TEST(Selection, MovesEverybodyInStateZeroAndFewerTheNearerD) {
     const Frame all = select_once(view_of("still"), {});
     EXPECT_EQ(all.work[sfsm::WorkKind::motion_update], all.work[sfsm::WorkKind::person]);
+    EXPECT_TRUE(same_bits(select_once(view_of("still"), {State::original, 1, 0}), all)) << "D means nothing there";
     std::int64_t last = all.work[sfsm::WorkKind::person];
     for (const double motion_distance : {200.0, 120.0, 60.0, 20.0, 1.0}) {
         const std::int64_t moved =

@@ -87,6 +87,32 @@ TEST(Gathering, WalkersFollowAnyPathAndStayInTheirBlock) {
     EXPECT_LT(box.max.x, 102.5f);
 }
 
+// The same people in centimetres and in kilometres.
+TEST(Gathering, BoxesAreInMetresWhateverAModelsUnits) {
+    for (const float units_a_metre : {100.0f, 0.001f}) {
+        const auto block_of = [](const tests::FakeCast& cast, scene::Role role) {
+            scene::Gathering gathering({1, cast.members, cast.poses, 1}, std::make_shared<ThereAndBack>());
+            gathering.open_block();
+            gathering.add({.position = {3, 1, 10}, .yaw = 0.4f, .height = 1.6f, .role = role});
+            gathering.close_block();
+            return gathering.crowd.blocks.at(0).box;
+        };
+        tests::FakeCast scaled = tests::sitters();
+        for (motion::PoseTable& poses : scaled.poses) {
+            poses.box.min *= units_a_metre;
+            poses.box.max *= units_a_metre;
+            poses.rest_height *= units_a_metre;
+        }
+        for (const scene::Role role : {scene::Role::walker, scene::Role::spectator}) {
+            const motion::Bounds expected = block_of(tests::sitters(), role), box = block_of(scaled, role);
+            for (int axis = 0; axis < 3; ++axis) {
+                EXPECT_NEAR(box.min[axis], expected.min[axis], 1e-4) << units_a_metre << ", axis " << axis;
+                EXPECT_NEAR(box.max[axis], expected.max[axis], 1e-4) << units_a_metre << ", axis " << axis;
+            }
+        }
+    }
+}
+
 TEST(Gathering, DropsABlockWithNobodyInIt) {
     const tests::FakeCast cast = tests::sitters();
     scene::Gathering gathering({1, cast.members, cast.poses, 1}, nullptr);
