@@ -1,18 +1,7 @@
 // One splat of a person.
 #include "person.glsl"
-layout(location = attribute_shares) in vec4 shares[slot_vectors];
+#include "shares.glsl"
 flat out vec3 splat_color;
-
-float share_of(int slot) { return shares[(slot - 1) / 4][(slot - 1) % 4]; }
-
-// What the person's own palette makes of the point's colour.
-vec3 tint() {
-    float untinted = 1.0;
-    for (int i = 0; i < slot_vectors; ++i) untinted -= dot(shares[i], vec4(1.0));
-    vec3 sum = vec3(untinted);
-    for (int slot = 1; slot <= slot_count; ++slot) sum += share_of(slot) * palette_color(slot);
-    return sum;
-}
 
 void main() {
     vec3 position = placed_position();
