@@ -15,8 +15,14 @@ Rerun rerun_open(const sim::Contestant& law, const std::vector<sfsm::TraceRow>& 
     Rerun rerun{law.name, {}, {}};
     rerun.rows.reserve(recorded.size());
     for (std::size_t i = 0; i < recorded.size(); ++i) {
-        sfsm::TraceRow& row = rerun.rows.emplace_back(recorded[i]);
-        row.motion = row.shapes = {};
+        sfsm::TraceRow& row = rerun.rows.emplace_back();
+        row.frame = recorded[i].frame;
+        row.target_ms = recorded[i].target_ms;
+        row.frame_ms = recorded[i].frame_ms;
+        row.cpu_ms = recorded[i].cpu_ms;
+        row.gpu_ms = recorded[i].gpu_ms;
+        row.range = recorded[i].range;
+        row.work = recorded[i].work;
         row.decision = replayed[i].decision;
         row.predicted_ms = replayed[i].predicted_ms;
     }

@@ -225,6 +225,17 @@ TEST_F(ReplayProgram, AnOpenLoopOfUnchangedInputGivesTheSameDecisions) {
     EXPECT_EQ(rows_of(content("out.csv")), rows_of(text_of(trace)));
 }
 
+// What became of the recorded decisions says nothing of others.
+TEST_F(ReplayProgram, AnOpenLoopDoesNotKnowWhatBecameOfItsDecisions) {
+    sfsm::Trace trace = recorded();
+    const std::string unknown = text_of(trace);
+    for (sfsm::TraceRow& row : trace.rows) row.drawn_state = sfsm::State::points;
+    ASSERT_NE(text_of(trace), unknown);
+    ASSERT_EQ(replay(save(trace) + " --open-loop --csv " + in_folder("out.csv")).code, 0);
+    std::istringstream in(content("out.csv"));
+    for (const sfsm::TraceRow& row : sfsm::read_trace(in, "out.csv").rows) ASSERT_FALSE(row.drawn_state);
+}
+
 // The load is the recording's whoever decides, and a law that aims at less takes less.
 TEST_F(ReplayProgram, AClosedLoopAnswersToItsDecisions) {
     const std::string trace = save(recorded());
