@@ -34,4 +34,7 @@ struct Skeleton {
     std::vector<PaletteEntry> palette;
 };
 
+// `world`: one matrix a node, on entry relative to its parent, then to model space. `palette` gets one an entry.
+void resolve_hierarchy(const Skeleton& skeleton, std::vector<glm::mat4>& world, std::vector<glm::mat4>& palette);
+
 }  // namespace model

@@ -134,21 +134,6 @@ glm::mat4 matrix_of(const model::Transform& transform) {
     return matrix;
 }
 
-// `out.world` holds local matrices on entry.
-void resolve_hierarchy(const model::Character& character, Pose& out) {
-    const model::Skeleton& skeleton = character.skeleton;
-    for (std::size_t i = 0; i < skeleton.nodes.size(); ++i) {
-        const std::int32_t parent = skeleton.nodes[i].parent;
-        assert(parent < static_cast<std::int32_t>(i));
-        if (parent >= 0) out.world[i] = out.world[static_cast<std::size_t>(parent)] * out.world[i];
-    }
-    out.palette.resize(skeleton.palette.size());
-    for (std::size_t i = 0; i < skeleton.palette.size(); ++i) {
-        const model::PaletteEntry& entry = skeleton.palette[i];
-        out.palette[i] = out.world[static_cast<std::size_t>(entry.node)] * entry.inverse_bind;
-    }
-}
-
 void start_from_rest(const model::Character& character, Pose& out) {
     out.world.clear();
     for (const model::Node& node : character.skeleton.nodes) out.world.push_back(node.rest_matrix);
@@ -181,7 +166,7 @@ glm::mat4 blended_matrix(const model::Mesh& mesh, const Pose& pose, std::size_t 
 
 void evaluate_rest(const model::Character& character, Pose& out) {
     start_from_rest(character, out);
-    resolve_hierarchy(character, out);
+    model::resolve_hierarchy(character.skeleton, out.world, out.palette);
 }
 
 void evaluate(const model::Character& character, const model::Clip& clip, double time, Pose& out) {
@@ -205,7 +190,7 @@ void evaluate(const model::Character& character, const model::Clip& clip, double
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         if (driven[i]) out.world[i] = matrix_of(locals[i]);
     }
-    resolve_hierarchy(character, out);
+    model::resolve_hierarchy(character.skeleton, out.world, out.palette);
 }
 
 void skin(const model::Mesh& mesh, const Pose& pose, std::vector<glm::vec3>& positions,

@@ -10,7 +10,6 @@
 #include "model/io/materials.h"
 #include "model/io/normals.h"
 #include "model/srgb.h"
-#include "motion/pose.h"
 
 namespace model {
 namespace {
@@ -324,10 +323,11 @@ Attachment attach_to_skin(GltfFile& file, const tinygltf::Skin& skin, const Node
 
 // A mirror in the rest pose turns triangles inside out: wind those the other way.
 void unmirror(Character& character) {
-    motion::Pose pose;
-    motion::evaluate_rest(character, pose);
+    std::vector<glm::mat4> world, palette;
+    for (const Node& node : character.skeleton.nodes) world.push_back(node.rest_matrix);
+    resolve_hierarchy(character.skeleton, world, palette);
     std::vector<float> determinants;
-    for (const glm::mat4& matrix : pose.palette) determinants.push_back(glm::determinant(glm::mat3(matrix)));
+    for (const glm::mat4& matrix : palette) determinants.push_back(glm::determinant(glm::mat3(matrix)));
     Mesh& mesh = character.mesh;
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
         float handedness = 0;
