@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <iterator>
 
 #include "sfsm/prices.h"
 
@@ -19,25 +20,18 @@ Choices::Choices(const Figure& figure, const std::array<double, sfsm::work_kinds
     std::vector<Choice> offers;
     for (std::uint32_t i = 0; i < representations().size(); ++i)
         for (const Level& level : representations()[i].levels(figure)) offers.push_back({i, level});
-    std::vector<std::size_t> order;  // the cheapest first, of equal ones the later
-    for (std::size_t i = offers.size(); i-- > 0;) order.push_back(i);
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return cost_of(offers[a].level, pieces) < cost_of(offers[b].level, pieces);
+    // `better` serves whoever `other` serves, for less, or for as much and comes later.
+    const auto replaces = [&](const Choice& better, const Choice& other) {
+        const double cost = cost_of(better.level, pieces), other_cost = cost_of(other.level, pieces);
+        return better.level.reach >= other.level.reach &&
+               (cost < other_cost || (cost == other_cost && &better > &other));
+    };
+    std::ranges::copy_if(offers, std::back_inserter(all_), [&](const Choice& offer) {
+        return std::ranges::none_of(offers, [&](const Choice& other) { return replaces(other, offer); });
     });
-    std::vector<bool> is_taken(offers.size(), false);
-    std::vector<std::size_t> taken;
-    for (const std::size_t offer : order) {
-        if (!taken.empty() && !(offers[offer].level.reach > offers[taken.back()].level.reach)) continue;
-        taken.push_back(offer);
-        is_taken[offer] = true;
-    }
-    assert(!taken.empty());
-    std::vector<std::uint32_t> place(offers.size());
-    for (std::size_t i = 0; i < offers.size(); ++i) {
-        place[i] = static_cast<std::uint32_t>(all_.size());
-        if (is_taken[i]) all_.push_back(offers[i]);
-    }
-    for (const std::size_t offer : taken) by_cost_.push_back({offers[offer].level.reach, place[offer]});
+    assert(!all_.empty());
+    for (std::uint32_t i = 0; i < all_.size(); ++i) by_cost_.push_back({all_[i].level.reach, i});
+    std::ranges::sort(by_cost_, {}, &Reach::reach);  // cost rises along it too: else one replaced another
 }
 
 }  // namespace figures

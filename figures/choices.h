@@ -21,8 +21,8 @@ struct Choice {
 
 class Choices {
 public:
-    // `pieces`: what one of each kind of work costs. Levels that are never the cheapest are left out; of
-    // equal cost, the later representation is taken.
+    // `pieces`: what one of each kind of work costs. Levels that are never the cheapest are left out; of equal cost,
+    // the later representation is taken.
     Choices(const Figure& figure, const std::array<double, sfsm::work_kinds>& pieces);
 
     // By representation, each from its coarsest level to its finest.

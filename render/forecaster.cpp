@@ -35,13 +35,12 @@ float Forecaster::demand_of(int bin) {
 }
 
 Forecaster::Forecaster(std::vector<Kind> kinds, float density)
-    : kinds_(std::move(kinds)),
-      density_(density),
-      pixels_(kinds_.size()),
-      people_by_demand_(kinds_.size()),
-      choices_(kinds_.size()) {
-    for (std::size_t kind = 0; kind < kinds_.size(); ++kind)
-        for (int bin = 0; bin < demand_bins; ++bin) choices_[kind][bin] = kinds_[kind].choices.at(demand_of(bin));
+    : kinds_(std::move(kinds)), pixels_(kinds_.size()), people_by_demand_(kinds_.size()), choices_(kinds_.size()) {
+    for (int bin = 0; bin < demand_bins; ++bin) {
+        silhouettes_[bin] = 0.5 * std::sqrt(demand_of(bin) / density);
+        for (std::size_t kind = 0; kind < kinds_.size(); ++kind)
+            choices_[kind][bin] = kinds_[kind].choices.at(demand_of(bin));
+    }
 }
 
 void Forecaster::begin(float range) {
@@ -105,10 +104,9 @@ void Forecaster::price_shapes() {
                 const std::uint32_t choice =
                     step == 0 ? choices.exact() : choices_[kind][std::clamp(bin - shift, 0, demand_bins - 1)];
                 const auto& [representation, level] = choices.all()[choice];
-                const double silhouette = 0.5 * std::sqrt(demand_of(bin) / density_);
                 out.work += level.work * people;
                 loss += static_cast<double>(people) *
-                        figures::representations()[representation].outline_px(out.setting, silhouette);
+                        figures::representations()[representation].outline_px(out.setting, silhouettes_[bin]);
             }
         }
         out.loss_px = loss / everybody;

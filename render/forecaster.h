@@ -45,7 +45,7 @@ private:
     // Of one kind and role: pixels per metre, summed over people, by depth.
     using Pixels = std::array<double, depth_bins>;
     std::vector<Kind> kinds_;
-    float density_ = 1;
+    std::array<double, demand_bins> silhouettes_{};  // [px] the side of a square as large as a bin's people
     float range_ = 1;
     std::int64_t people_ = 0;
     std::array<std::int64_t, depth_bins> depths_;                          // people

@@ -127,7 +127,9 @@ Selector::Candidate Selector::consider(std::size_t person, const sfsm::Decision&
         period = motion::update_period(depth_[person], static_cast<float>(decision.motion_distance), options_.theta);
     const std::int64_t due = motion::due_tick(tick_, period, crowd_.hash[person]);
     const auto splat_area = static_cast<float>(decision.splat_size * decision.splat_size);
-    const std::uint32_t choice = kinds_[character].choices.at(demand_at_unit_splat(person) / splat_area);
+    const figures::Choices& choices = kinds_[character].choices;
+    const std::uint32_t choice =
+        splat_area > 0 ? choices.at(demand_at_unit_splat(person) / splat_area) : choices.exact();
     const scene::Action action = scene::act(crowd_, person, member, poses, due);
     const auto pose = static_cast<std::uint32_t>(poses.pose_at(action.clip, action.clip_tick));
     const scene::Placement placement = scene::place(crowd_, person, member, due);
