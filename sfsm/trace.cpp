@@ -104,6 +104,7 @@ Trace read_trace(LineReader& lines) {
     const Header header = parse_header(line, lines);
 
     std::vector<std::string_view> fields;
+    std::int64_t before = -1;  // the last row's frame
     while (lines.next(line)) {
         trace.is_cut = !lines.has_line_end();
         if (trace.is_cut) break;
@@ -111,13 +112,12 @@ Trace read_trace(LineReader& lines) {
         if (fields.size() != header.fields) {
             lines.fail("found " + std::to_string(fields.size()) + " fields, expected " + std::to_string(header.fields));
         }
-        const bool is_first = trace.rows.empty();
         TraceRow& row = trace.rows.emplace_back();
         parse_row(header, fields, lines, row);
-        const std::int64_t before = is_first ? -1 : (&row - 1)->frame;
         if (row.frame <= before) {
             lines.fail("found frame " + std::to_string(row.frame) + ", expected one after " + std::to_string(before));
         }
+        before = row.frame;
     }
     return trace;
 }
