@@ -11,10 +11,10 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "tests/apps/trace_text.h"
 #include "tests/command.h"
 
 namespace {
@@ -59,13 +59,6 @@ std::string hash(const void* data, std::size_t size) {
     return text;
 }
 
-std::vector<std::string> split(const std::string& line) {
-    std::vector<std::string> fields;
-    std::istringstream stream(line);
-    for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
-    return fields;
-}
-
 struct Drawn {
     std::string pixels, counts, driver;
 };
@@ -74,20 +67,13 @@ struct Drawn {
 void read_trace(const std::string& text, Drawn& drawn) {
     const std::vector<std::string> counted{"visible",           "triangles", "points",       "motion_updates",
                                            "motion_distance_m", "range_m",   "motion_steps", "splat_steps"};
-    std::istringstream lines(text);
-    std::vector<std::string> header;
-    std::string kept;
-    for (std::string line; std::getline(lines, line);) {
+    for (const std::string& line : tests::lines_of(text))
         if (line.starts_with("# device=") || line.starts_with("# driver=")) drawn.driver += line.substr(9) + "; ";
-        if (line.starts_with("#")) continue;
-        const std::vector<std::string> fields = split(line);
-        if (header.empty()) {
-            header = fields;
-            continue;
-        }
-        for (std::size_t i = 0; i < header.size(); ++i)
-            if (std::find(counted.begin(), counted.end(), header[i]) != counted.end()) kept += fields.at(i) + ",";
-    }
+    const std::vector<std::vector<std::string>> table = tests::table_of(text);
+    std::string kept;
+    for (std::size_t row = 1; row < table.size(); ++row)
+        for (std::size_t i = 0; i < table[0].size(); ++i)
+            if (std::find(counted.begin(), counted.end(), table[0][i]) != counted.end()) kept += table[row].at(i) + ",";
     drawn.counts = hash(kept.data(), kept.size());
 }
 

@@ -39,7 +39,7 @@ model::Mesh patchwork(std::size_t triangles, std::uint64_t seed) {
         mesh.uvs.emplace_back(random(-2, 3), random(-2, 3));
         mesh.colors.emplace_back(byte(), byte(), byte(), byte());
         mesh.slots.push_back(static_cast<model::Slot>(byte() % (1 + model::slot_count)));
-        mesh.material_ids.push_back(i / 3 % 3);
+        mesh.material_ids.push_back(static_cast<std::uint16_t>(i / 3 % 3));
         mesh.joints.emplace_back(byte() % 6, byte() % 6, byte() % 6, byte() % 6);
         const glm::vec4 weights(random(0, 1), random(0, 1), random(0, 1), 0.0f);
         mesh.weights.push_back(weights / (weights.x + weights.y + weights.z));
