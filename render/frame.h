@@ -20,6 +20,17 @@ struct Instance {
 };
 static_assert(sizeof(Instance) == 20 + 4 * model::slot_count);
 
+// How one person is drawn.
+struct Person {
+    Instance instance;
+    std::uint32_t character;
+    std::uint32_t representation;  // into figures::representations()
+    std::uint32_t first, count;    // of its elements: figures::Level's
+    std::uint32_t pose;            // into the character's PoseTable
+    std::uint32_t batch;           // people of one number are drawn alike but for their instance
+    float depth;                   // [m] view depth of their middle, > 0
+};
+
 // People of one character in one pose, drawn alike.
 struct Batch {
     std::uint32_t character;

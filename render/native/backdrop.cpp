@@ -1,0 +1,1 @@
+#include "render/native/picture.h"
