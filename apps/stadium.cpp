@@ -73,7 +73,7 @@ public:
           path_from_file_(load_path(options.camera)),
           surface_(options),
           device_(render::gl::read_device()),
-          stage_(build_stage(options.characters, options.people, options.seed, PointCache(options.cache))),
+          stage_(build_stage(options.characters, options.people, options.seed, PointCache(options.cache), figures::by_opengl())),
           path_(path_from_file_ ? *path_from_file_ : stage_->place.cameras.named(options.camera)),
           renderer_(stage_->place.structure, stage_->place.ground, stage_->place.light, stage_->figures(),
                     options.width, options.height),

@@ -22,20 +22,20 @@ namespace {
 constexpr std::size_t pose_byte_budget = std::size_t{256} << 20;
 
 // As many points as are believed to cost what its triangles do: more are never drawn of a character.
-std::size_t point_count(const model::Mesh& mesh) {
-    constexpr std::size_t fewest = 64, most = 16384;
-    constexpr auto pieces = [](sfsm::WorkKind kind) { return sfsm::entry_of(kind).prior.pieces; };
-    constexpr double points_a_triangle = pieces(sfsm::WorkKind::triangle) / pieces(sfsm::WorkKind::point);
+std::size_t point_count(const model::Mesh& mesh, const figures::Way& way) {
+    constexpr std::size_t fewest = 64, most = 4096;
+    const auto pieces = [&](sfsm::WorkKind kind) { return way.pieces[sfsm::index_of(kind)]; };
+    const double points_a_triangle = pieces(sfsm::WorkKind::triangle) / pieces(sfsm::WorkKind::point);
     const double count = std::floor(points_a_triangle * static_cast<double>(mesh.triangle_count()));
     return std::clamp(static_cast<std::size_t>(count), fewest, most);
 }
 
 // The first pose is the one that most people are seen in, where limbs are apart.
 pointsample::PointModel sample_points(const model::Character& character, const std::vector<int>& clips,
-                                      std::uint64_t seed, const PointCache& cache) {
+                                      std::uint64_t seed, const PointCache& cache, const figures::Way& way) {
     constexpr std::size_t pose_count = 16;
     pointsample::SampleOptions options;
-    options.count = point_count(character.mesh);
+    options.count = point_count(character.mesh, way);
     options.seed = seed;
     throw_if_interrupted();
     const std::vector<pointsample::PosedMesh> poses = pointsample::spread_poses(character, clips, pose_count);
@@ -46,9 +46,9 @@ pointsample::PointModel sample_points(const model::Character& character, const s
 }
 
 void add_character(Stage& stage, model::Character character, std::uint64_t seed, std::size_t byte_budget,
-                   const PointCache& cache) {
+                   const PointCache& cache, const figures::Way& way) {
     scene::Casting casting = scene::cast(character);
-    stage.points.push_back(sample_points(character, casting.clips, seed, cache));
+    stage.points.push_back(sample_points(character, casting.clips, seed, cache, way));
     throw_if_interrupted();
     ProgressBar bar("Posing " + character.name);
     stage.poses.push_back(motion::bake_poses(character, casting.clips, stage.points.back().surface, byte_budget,
@@ -66,11 +66,11 @@ std::vector<figures::Figure> Stage::figures() const {
 }
 
 std::unique_ptr<Stage> build_stage(const std::vector<std::filesystem::path>& character_files, std::int64_t people,
-                                   std::uint64_t seed, const PointCache& cache) {
+                                   std::uint64_t seed, const PointCache& cache, const figures::Way& way) {
     auto stage = std::make_unique<Stage>();
-    if (character_files.empty()) add_character(*stage, scene::make_person(), seed, pose_byte_budget, cache);
+    if (character_files.empty()) add_character(*stage, scene::make_person(), seed, pose_byte_budget, cache, way);
     for (const std::filesystem::path& file : character_files)
-        add_character(*stage, model::load_mesh(file), seed, pose_byte_budget / character_files.size(), cache);
+        add_character(*stage, model::load_mesh(file), seed, pose_byte_budget / character_files.size(), cache, way);
     throw_if_interrupted();
     ProgressBar bar("Seating the crowd");
     stage->place = scene::make_stadium({people, stage->cast, stage->poses, seed});

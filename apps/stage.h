@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "apps/point_cache.h"
-#include "figures/figure.h"
+#include "figures/representation.h"
 #include "model/mesh.h"
 #include "motion/pose_table.h"
 #include "pointsample/point_model.h"
@@ -28,7 +28,8 @@ struct Stage {
 };
 
 // `character_files` empty: the built-in person. Shows progress on a terminal. Throws what the loaders throw.
+// A character gets as many points as serve where they are drawn in that way.
 std::unique_ptr<Stage> build_stage(const std::vector<std::filesystem::path>& character_files, std::int64_t people,
-                                   std::uint64_t seed, const PointCache& cache);
+                                   std::uint64_t seed, const PointCache& cache, const figures::Way& way);
 
 }  // namespace apps

@@ -16,13 +16,13 @@ double cost_of(const Level& level, const std::array<double, sfsm::work_kinds>& p
 
 }  // namespace
 
-Choices::Choices(const Figure& figure, const std::array<double, sfsm::work_kinds>& pieces) {
+Choices::Choices(const Figure& figure, const Way& way) {
     std::vector<Choice> offers;
-    for (std::uint32_t i = 0; i < representations().size(); ++i)
-        for (const Level& level : representations()[i].levels(figure)) offers.push_back({i, level});
+    for (std::uint32_t i = 0; i < way.representations.size(); ++i)
+        for (const Level& level : way.representations[i].levels(figure)) offers.push_back({i, level});
     // `better` serves whoever `other` serves, for less, or for as much and comes later.
     const auto replaces = [&](const Choice& better, const Choice& other) {
-        const double cost = cost_of(better.level, pieces), other_cost = cost_of(other.level, pieces);
+        const double cost = cost_of(better.level, way.pieces), other_cost = cost_of(other.level, way.pieces);
         return better.level.reach >= other.level.reach &&
                (cost < other_cost || (cost == other_cost && &better > &other));
     };

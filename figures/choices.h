@@ -7,23 +7,15 @@
 
 namespace figures {
 
-// What one of each kind of work is believed to cost, in pieces (sfsm/work.h).
-inline constexpr std::array<double, sfsm::work_kinds> believed_pieces = [] {
-    std::array<double, sfsm::work_kinds> pieces{};
-    for (std::size_t kind = 0; kind < sfsm::work_kinds; ++kind) pieces[kind] = sfsm::work_table[kind].prior.pieces;
-    return pieces;
-}();
-
 struct Choice {
-    std::uint32_t representation = 0;  // into representations()
+    std::uint32_t representation = 0;  // into Way::representations
     Level level;
 };
 
 class Choices {
 public:
-    // `pieces`: what one of each kind of work costs. Levels that are never the cheapest are left out; of equal cost,
-    // the later representation is taken.
-    Choices(const Figure& figure, const std::array<double, sfsm::work_kinds>& pieces);
+    // Levels that are never the cheapest are left out; of equal cost, the later representation is taken.
+    Choices(const Figure& figure, const Way& way);
 
     // By representation, each from its coarsest level to its finest.
     std::span<const Choice> all() const { return all_; }

@@ -45,6 +45,15 @@ std::vector<Level> point_levels(const Figure& figure) {
     return levels;
 }
 
+std::vector<Level> native_point_levels(const Figure& figure) {
+    std::vector<Level> levels = point_levels(figure);
+    for (Level& level : levels) {
+        level.first = 0;
+        level.by_ones = true;
+    }
+    return levels;
+}
+
 std::vector<PointLook> point_looks(const Figure& figure) {
     const pointsample::PointModel& model = *figure.points;
     std::vector<PointLook> looks;

@@ -18,6 +18,11 @@ constexpr double point_outline_px(double splat_size, double silhouette) {
 
 inline constexpr Representation points{"points", false, point_levels, point_outline_px};
 
+// The same points with coverage: any number of them is drawn, from everybody's own first on.
+std::vector<Level> native_point_levels(const Figure& figure);
+
+inline constexpr Representation native_points{"points", false, native_point_levels, point_outline_px};
+
 // What a drawer shows at one of the model's points.
 struct PointLook {
     std::uint32_t point = 0;                               // into the model's, and a pose's, points

@@ -6,6 +6,7 @@
 // It grows without bound as S goes to 0, where only what has the artist's own shape will do.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -22,7 +23,18 @@ struct Level {
     float reach = 0;  // the greatest demand that it serves; infinite for the artist's own shape
     // What drawers are handed: which of the representation's elements (corners of triangles, points) are drawn.
     std::uint32_t first = 0, count = 0;
+    bool by_ones = false;  // any number of them up to `count` can be drawn, the last in part
 };
+
+// What of a level is drawn of somebody.
+struct Part {
+    std::uint32_t count = 0;
+    float last_share = 1;  // of the last of them, (0, 1]
+    sfsm::Work work;
+};
+
+// For a demand > 0.
+Part part_of(const Level& level, float demand);
 
 struct Representation {
     std::string_view name;
@@ -34,7 +46,14 @@ struct Representation {
     double (*outline_px)(double splat_size, double silhouette) = nullptr;
 };
 
-// In the order in which they are drawn and numbered.
-std::span<const Representation> representations();
+// A way of drawing: by what device, and so as what, and what it is believed to cost.
+struct Way {
+    std::string_view name;
+    std::span<const Representation> representations;  // in the order in which they are drawn and numbered
+    std::array<double, sfsm::work_kinds> pieces;      // that one of each kind of work is believed to cost (sfsm/work.h)
+};
+
+const Way& by_opengl();
+const Way& natively();
 
 }  // namespace figures

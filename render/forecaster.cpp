@@ -34,8 +34,8 @@ float Forecaster::demand_of(int bin) {
     return std::bit_cast<float>((static_cast<std::uint32_t>(bin + first_bin) << bin_shift) + half_a_bin);
 }
 
-Forecaster::Forecaster(std::vector<Kind> kinds, float density)
-    : kinds_(std::move(kinds)), pixels_(kinds_.size()), people_by_demand_(kinds_.size()), choices_(kinds_.size()) {
+Forecaster::Forecaster(std::vector<Kind> kinds, const figures::Way& way, float density)
+    : way_(&way), kinds_(std::move(kinds)), pixels_(kinds_.size()), people_by_demand_(kinds_.size()), choices_(kinds_.size()) {
     for (int bin = 0; bin < demand_bins; ++bin) {
         silhouettes_[bin] = 0.5 * std::sqrt(demand_of(bin) / density);
         for (std::size_t kind = 0; kind < kinds_.size(); ++kind)
@@ -101,12 +101,12 @@ void Forecaster::price_shapes() {
             for (int bin = 0; bin < demand_bins; ++bin) {
                 const std::int64_t people = people_by_demand_[kind][bin];
                 if (people == 0) continue;
-                const std::uint32_t choice =
-                    step == 0 ? choices.exact() : choices_[kind][std::clamp(bin - shift, 0, demand_bins - 1)];
+                const int asked = std::clamp(bin - shift, 0, demand_bins - 1);
+                const std::uint32_t choice = step == 0 ? choices.exact() : choices_[kind][asked];
                 const auto& [representation, level] = choices.all()[choice];
-                out.work += level.work * people;
+                out.work += figures::part_of(level, demand_of(asked)).work * people;
                 loss += static_cast<double>(people) *
-                        figures::representations()[representation].outline_px(out.setting, silhouettes_[bin]);
+                        way_->representations[representation].outline_px(out.setting, silhouettes_[bin]);
             }
         }
         out.loss_px = loss / everybody;

@@ -20,8 +20,8 @@ public:
     };
 
     Forecaster() = default;
-    // `density`: SelectOptions::density.
-    Forecaster(std::vector<Kind> kinds, float density);
+    // `density`: SelectOptions::density. `way` must outlive it.
+    Forecaster(std::vector<Kind> kinds, const figures::Way& way, float density);
 
     // Forgets the last frame; people come with depths in (0, range].
     void begin(float range);
@@ -44,6 +44,7 @@ private:
 
     // Of one kind and role: pixels per metre, summed over people, by depth.
     using Pixels = std::array<double, depth_bins>;
+    const figures::Way* way_ = nullptr;
     std::vector<Kind> kinds_;
     std::array<double, demand_bins> silhouettes_{};  // [px] the side of a square as large as a bin's people
     float range_ = 1;

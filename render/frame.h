@@ -1,4 +1,4 @@
-// A frame as every drawer takes it: from where, whom, and how each is drawn. Plain data, no device.
+// A frame as every way of drawing takes it: from where, whom, and how each is drawn. Plain data, no device.
 #pragma once
 
 #include <array>
@@ -24,28 +24,19 @@ static_assert(sizeof(Instance) == 20 + 4 * model::slot_count);
 struct Person {
     Instance instance;
     std::uint32_t character;
-    std::uint32_t representation;  // into figures::representations()
+    std::uint32_t representation;  // into Way::representations
     std::uint32_t first, count;    // of its elements: figures::Level's
+    float last_share;              // of the last of them that is drawn, where a representation can: (0, 1]
     std::uint32_t pose;            // into the character's PoseTable
-    std::uint32_t batch;           // people of one number are drawn alike but for their instance
+    std::uint32_t batch;           // people of one number are alike in all but their instance and depth
     float depth;                   // [m] view depth of their middle, > 0
-};
-
-// People of one character in one pose, drawn alike.
-struct Batch {
-    std::uint32_t character;
-    std::uint32_t representation;  // into figures::representations()
-    std::uint32_t first, count;    // of its elements: figures::Level's
-    std::uint32_t pose;            // into the character's PoseTable
-    std::uint32_t first_instance;
-    std::uint32_t instance_count;
 };
 
 struct Frame {
     View view;
     double splat_size = 0;  // S [px]
-    std::vector<Instance> instances;
-    std::vector<Batch> batches;  // by character, then representation, level and pose
+    std::vector<Person> people;       // in the crowd's order
+    std::uint32_t batch_numbers = 0;  // Person::batch is below it; it rises with character, representation, level, pose
     sfsm::Work work;
     // What became of the decision: 2 if anybody is drawn by anything but a mesh, else 1 if anybody moves less often
     // than every frame, else 0.

@@ -24,21 +24,19 @@ Selector::Selector(const scene::Crowd& crowd, std::span<const scene::CastMember>
       options_(options),
       depth_(crowd.size()),
       candidates_(crowd.size()) {
-    std::uint32_t bucket_count = 0;
     for (const figures::Figure& figure : figures_) {
-        Kind& kind = kinds_.emplace_back(Kind{figures::Choices(figure, options_.pieces)});
+        Kind& kind = kinds_.emplace_back(Kind{figures::Choices(figure, *options_.way)});
         const motion::Bounds& box = figure.poses->box;
         const glm::vec3 reach = glm::max(glm::abs(box.min), glm::abs(box.max));
-        kind.first_bucket = bucket_count;
+        kind.first_batch = frame_.batch_numbers;
         kind.center = glm::vec3(0.0f, box.center().y, 0.0f);
         kind.radius = glm::length(glm::vec3(reach.x, 0.5f * box.size().y, reach.z));
-        bucket_count += static_cast<std::uint32_t>(kind.choices.all().size() * figure.poses->pose_count);
+        frame_.batch_numbers += static_cast<std::uint32_t>(kind.choices.all().size() * figure.poses->pose_count);
     }
-    bucket_begin_.resize(bucket_count + 1);
     const auto staleness = measure_staleness(crowd_, cast_, figures_);
     std::vector<Forecaster::Kind> priced;
     for (std::size_t i = 0; i < kinds_.size(); ++i) priced.push_back({kinds_[i].choices, staleness[i]});
-    forecaster_ = Forecaster(std::move(priced), options_.density);
+    forecaster_ = Forecaster(std::move(priced), *options_.way, options_.density);
 }
 
 template <typename Visit>
@@ -128,58 +126,45 @@ Selector::Candidate Selector::consider(std::size_t person, const sfsm::Decision&
     const std::int64_t due = motion::due_tick(tick_, period, crowd_.hash[person]);
     const auto splat_area = static_cast<float>(decision.splat_size * decision.splat_size);
     const figures::Choices& choices = kinds_[character].choices;
-    const std::uint32_t choice =
-        splat_area > 0 ? choices.at(demand_at_unit_splat(person) / splat_area) : choices.exact();
+    const float demand = splat_area > 0 ? demand_at_unit_splat(person) / splat_area : 0.0f;
+    const std::uint32_t choice = splat_area > 0 ? choices.at(demand) : choices.exact();
+    const auto& [representation, level] = choices.all()[choice];
+    const figures::Part part = figures::part_of(level, demand);
     const scene::Action action = scene::act(crowd_, person, member, poses, due);
     const auto pose = static_cast<std::uint32_t>(poses.pose_at(action.clip, action.clip_tick));
     const scene::Placement placement = scene::place(crowd_, person, member, due);
     Candidate candidate;
-    candidate.bucket = kinds_[character].first_bucket + choice * static_cast<std::uint32_t>(poses.pose_count) + pose;
+    candidate.work = part.work;
     candidate.moved = due > last_tick;
     candidate.slowed = period > 1;
-    candidate.instance = {view_.relative(placement.position), scale_of(person), snorm16(std::sin(placement.yaw)),
-                          snorm16(std::cos(placement.yaw)), crowd_.palette[person]};
+    candidate.person = {
+        {view_.relative(placement.position), scale_of(person), snorm16(std::sin(placement.yaw)),
+         snorm16(std::cos(placement.yaw)), crowd_.palette[person]},
+        static_cast<std::uint32_t>(character),
+        representation,
+        level.first,
+        part.count,
+        part.last_share,
+        pose,
+        kinds_[character].first_batch + choice * static_cast<std::uint32_t>(poses.pose_count) + pose,
+        depth_[person]};
     return candidate;
 }
 
-// Counting sort of the candidates by bucket.
 void Selector::gather() {
-    std::fill(bucket_begin_.begin(), bucket_begin_.end(), 0u);
+    frame_.people.clear();
     frame_.work = {};
-    bool is_slowed = false;
-    for_each_visible([&](std::size_t person) {
-        ++bucket_begin_[candidates_[person].bucket + 1];
-        frame_.work[sfsm::WorkKind::motion_update] += candidates_[person].moved;
-        is_slowed |= candidates_[person].slowed;
-    });
-    for (std::size_t bucket = 1; bucket < bucket_begin_.size(); ++bucket)
-        bucket_begin_[bucket] += bucket_begin_[bucket - 1];
-
-    frame_.work[sfsm::WorkKind::person] = bucket_begin_.back();
-    frame_.state = is_slowed ? sfsm::State::slowed : sfsm::State::original;
-    frame_.batches.clear();
-    for (std::uint32_t character = 0; character < figures_.size(); ++character) batch(character);
-
-    frame_.instances.resize(bucket_begin_.back());
+    bool is_slowed = false, is_simplified = false;
     for_each_visible([&](std::size_t person) {
         const Candidate& candidate = candidates_[person];
-        frame_.instances[bucket_begin_[candidate.bucket]++] = candidate.instance;
+        frame_.people.push_back(candidate.person);
+        frame_.work += candidate.work;
+        frame_.work[sfsm::WorkKind::motion_update] += candidate.moved;
+        is_slowed |= candidate.slowed;
+        is_simplified |= !options_.way->representations[candidate.person.representation].is_mesh;
     });
-}
-
-void Selector::batch(std::uint32_t character) {
-    const auto pose_count = static_cast<std::uint32_t>(figures_[character].poses->pose_count);
-    std::uint32_t bucket = kinds_[character].first_bucket;
-    for (const auto& [representation, level] : kinds_[character].choices.all()) {
-        for (std::uint32_t pose = 0; pose < pose_count; ++pose, ++bucket) {
-            const std::uint32_t count = bucket_begin_[bucket + 1] - bucket_begin_[bucket];
-            if (count == 0) continue;
-            frame_.batches.push_back(
-                {character, representation, level.first, level.count, pose, bucket_begin_[bucket], count});
-            frame_.work += level.work * count;
-            if (!figures::representations()[representation].is_mesh) frame_.state = sfsm::State::points;
-        }
-    }
+    frame_.work[sfsm::WorkKind::person] = static_cast<std::int64_t>(frame_.people.size());
+    frame_.state = is_simplified ? sfsm::State::points : is_slowed ? sfsm::State::slowed : sfsm::State::original;
 }
 
 }  // namespace render

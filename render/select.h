@@ -1,5 +1,5 @@
-// What to draw, and how finely: the visible people, each with a pose and a level of one of the representations,
-// gathered so that every batch reads one pose. No device, no clock.
+// What to draw, and how finely: the visible people, each with a pose and a level of one of the representations. No
+// device, no clock.
 #pragma once
 
 #include <array>
@@ -23,8 +23,8 @@ struct SelectOptions {
     // points: 1.2 puts more than two on every square that is to be covered, and leaves about one in fifty open. Fewer
     // leave more holes, more make people fatter.
     float density = 1.2f;
-    // What one of each kind of work costs: of all levels that serve a person, the cheapest is drawn.
-    std::array<double, sfsm::work_kinds> pieces = figures::believed_pieces;
+    // As what people can be drawn: of all levels that serve a person, the cheapest is. Must outlive the selector.
+    const figures::Way* way = &figures::by_opengl();
 };
 
 // What a view shows, before anything is decided about it.
@@ -48,15 +48,15 @@ public:
 
 private:
     struct Candidate {
-        std::uint32_t bucket;  // of its batch
+        Person person;
+        sfsm::Work work;  // to draw them so
         bool moved;
         bool slowed;  // moves less often than every frame
-        Instance instance;
     };
     // What is known of a character beforehand.
     struct Kind {
         figures::Choices choices;
-        std::uint32_t first_bucket = 0;  // choice by choice, in each a bucket a pose
+        std::uint32_t first_batch = 0;  // choice by choice, in each a number a pose
         // A ball around the character in every pose, on the axis that it turns about [model units].
         glm::vec3 center{0.0f};
         float radius = 0;
@@ -69,7 +69,6 @@ private:
     float scale_of(std::size_t person) const;  // [m / model unit]
     float demand_at_unit_splat(std::size_t person) const;
     void gather();
-    void batch(std::uint32_t character);
     template <typename Visit>
     void for_each_visible(Visit visit) const;
 
@@ -87,8 +86,7 @@ private:
     Forecaster forecaster_;
     Survey survey_;
 
-    std::vector<Candidate> candidates_;        // one a person; only visible people's are of this frame
-    std::vector<std::uint32_t> bucket_begin_;  // per bucket, then the total
+    std::vector<Candidate> candidates_;  // one a person; only visible people's are of this frame
     Frame frame_;
 };
 

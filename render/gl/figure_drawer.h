@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "figures/figure.h"
-#include "render/frame.h"
+#include "render/batches.h"
 #include "render/gl/objects.h"
 
 namespace render::gl {
@@ -27,7 +27,7 @@ public:
     virtual void draw(std::uint32_t character, std::uintptr_t offset, GLsizei count) const = 0;
 };
 
-// One for each of figures::representations(), in their order.
+// One for each of by_opengl()'s representations, in their order.
 std::vector<std::unique_ptr<FigureDrawer>> make_figure_drawers();
 
 }  // namespace render::gl

@@ -123,9 +123,10 @@ void Renderer::upload_frame(const View& view, double splat_size) {
 
 // Batches become indirect commands; neighbours of one character and representation become one run, drawn by one call.
 void Renderer::upload_people(const Frame& frame) {
+    batches_.gather(frame);
     command_words_.clear();
     runs_.clear();
-    for (const Batch& batch : frame.batches) {
+    for (const Batch& batch : batches_.all()) {
         if (runs_.empty() || runs_.back().character != batch.character ||
             runs_.back().representation != batch.representation)
             runs_.push_back({batch.character, batch.representation, command_words_.size() * sizeof(std::uint32_t), 0});
@@ -135,8 +136,8 @@ void Renderer::upload_people(const Frame& frame) {
     // A fresh store each frame: the device may still be reading the last one.
     glNamedBufferData(commands_.name(), static_cast<GLsizeiptr>(command_words_.size() * sizeof(std::uint32_t)),
                       command_words_.data(), GL_STREAM_DRAW);
-    glNamedBufferData(instances_.name(), static_cast<GLsizeiptr>(frame.instances.size() * sizeof(Instance)),
-                      frame.instances.data(), GL_STREAM_DRAW);
+    glNamedBufferData(instances_.name(), static_cast<GLsizeiptr>(batches_.instances().size() * sizeof(Instance)),
+                      batches_.instances().data(), GL_STREAM_DRAW);
 }
 
 void Renderer::draw_people() const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "figures/figure.h"
+#include "render/batches.h"
 #include "render/frame.h"
 #include "render/gl/backdrop.h"
 #include "render/gl/figure_drawer.h"
@@ -58,6 +59,7 @@ private:
     Renderbuffer color_, depth_;
     Framebuffer target_;
     int width_ = 0, height_ = 0;
+    Batches batches_;
     std::vector<std::uint32_t> command_words_;
     std::vector<CommandRun> runs_;
 };

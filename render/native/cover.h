@@ -1,0 +1,40 @@
+// What people leave of a tile's pixels: light and coverage, laid down front to back.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "render/native/picture.h"
+#include "render/native/splat.h"
+
+namespace render::native {
+
+// Linear red, green, blue of what covers a pixel, and how much of it is covered: pixel_full = all.
+struct Cover {
+    std::uint16_t red, green, blue, share;
+};
+
+// One a thread: everything of a tile that isn't in the picture yet.
+class CoverTile {
+public:
+    CoverTile();
+
+    void begin(const Tile& tile);
+    const Tile& tile() const { return tile_; }
+
+    // Lays a patch behind what is there, where it is nearer than the backdrop.
+    void lay(const SplatPerson& person, const Patch& patch, const BackdropPicture& behind);
+
+    // Puts the tile into the picture: the backdrop shows through where nobody covers it.
+    void resolve(const BackdropPicture& behind, Plane<std::uint32_t>& out) const;
+
+    Cover* row(int y) { return &cover_[static_cast<std::size_t>(y - tile_.y0) * tile_side - tile_.x0]; }
+
+private:
+    void lay_row(const SplatPerson& person, const Patch& patch, const BackdropPicture& behind, int y);
+
+    Tile tile_;
+    std::vector<Cover> cover_;
+};
+
+}  // namespace render::native

@@ -1,0 +1,26 @@
+// Directions from which a body is seen, as a grid of nodes around it: fine enough that what changes with the direction
+// can be interpolated between four of them.
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+
+namespace render::native {
+
+// Rings from straight below to straight above, `ring_nodes` around each; those of the two poles coincide.
+inline constexpr int rings = 9, ring_nodes = 16;
+inline constexpr int direction_nodes = rings * ring_nodes;
+
+// Unit, from the body towards the node.
+glm::vec3 direction_of(int node);
+
+// The four nodes around a direction, and their shares, which sum to 1.
+struct Between {
+    std::array<int, 4> node;
+    std::array<float, 4> share;
+};
+
+// `direction`: from the body towards the eye, of any length but 0.
+Between between_nodes(glm::vec3 direction);
+
+}  // namespace render::native

@@ -1,0 +1,37 @@
+// People who are drawn as points: each made ready once a frame, then drawn tile by tile.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "figures/figure.h"
+#include "render/frame.h"
+#include "render/native/splat.h"
+#include "render/native/splat_model.h"
+#include "scene/light.h"
+
+namespace render::native {
+
+class PointPeople {
+public:
+    // `figures` must outlive it. A character's model is made when somebody of it is first drawn.
+    PointPeople(std::span<const figures::Figure> figures, const scene::Light& light);
+
+    // Of one frame; `splat_size` S > 0 [px]. Parallel.
+    void prepare(const View& view, double splat_size, std::span<const Person* const> people);
+
+    std::span<const SplatPerson> people() const { return people_; }
+    const SplatLight& light() const { return light_; }
+
+private:
+    SplatPerson ready(const View& view, const Person& person, float cell) const;
+
+    std::vector<figures::Figure> figures_;
+    std::vector<std::unique_ptr<SplatModel>> models_;  // by character; null: not needed yet
+    glm::vec3 to_sun_;
+    SplatLight light_;
+    std::vector<SplatPerson> people_;
+};
+
+}  // namespace render::native

@@ -1,0 +1,226 @@
+#include "render/native/splat.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/native/splat.cpp"
+#include <hwy/foreach_target.h>
+// After it.
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <bit>
+
+#include "render/native/splat_model.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace render::native::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Lanes = hn::CappedTag<std::int16_t, chunk_points>;
+using Vector = hn::Vec<Lanes>;
+constexpr Lanes lanes;
+using Pixel = hn::FixedTag<std::int16_t, 8>;
+constexpr Pixel pixel;
+
+Vector all(std::int16_t value) { return hn::Set(lanes, value); }
+Vector times(Vector a, Vector b) { return hn::MulFixedPoint15(a, b); }
+
+Vector dot(const Vector* v, const std::array<std::int16_t, 3>& axis) {
+    return hn::Add(hn::Add(times(v[0], all(axis[0])), times(v[1], all(axis[1]))), times(v[2], all(axis[2])));
+}
+
+// 127 = 1 becomes 32512 = 1; the axes that they are multiplied by make up for it.
+void load_normals(const std::int8_t* from, Vector* normal) {
+    const hn::Rebind<std::int8_t, Lanes> bytes;
+    for (int axis = 0; axis < 3; ++axis)
+        normal[axis] = hn::ShiftLeft<8>(hn::PromoteTo(lanes, hn::LoadU(bytes, from + axis * chunk_points)));
+}
+
+// How much of each point is seen from the eye, were it to face it.
+Vector seen(const SplatPerson& person, int chunk, int lane) {
+    Vector sum = hn::Zero(lanes);
+    for (int i = 0; i < 4; ++i) {
+        const auto* bits = reinterpret_cast<const std::uint8_t*>(person.visible[i] + chunk) + lane / 8;
+        sum = hn::Add(sum, hn::IfThenElseZero(hn::LoadMaskBits(lanes, bits), all(person.visible_share[i])));
+    }
+    return sum;
+}
+
+// The share of its area that each point shows.
+Vector shown(const SplatPerson& person, const Vector* normal, int chunk, int lane) {
+    const Vector facing = dot(normal, person.to_eye);
+    const Vector index = hn::Add(hn::Iota(lanes, static_cast<std::int16_t>(chunk * chunk_points + lane)),
+                                 hn::Zero(lanes));
+    const Vector last = all(static_cast<std::int16_t>(person.count - 1));
+    Vector part = person.two_sided ? hn::Abs(facing)
+                                   : times(hn::Max(facing, hn::Zero(lanes)), seen(person, chunk, lane));
+    part = hn::IfThenElse(hn::Eq(index, last), times(part, all(person.last_share)), part);
+    return hn::IfThenZeroElse(hn::Gt(index, last), part);
+}
+
+int chunks_of(const SplatPerson& person) { return (person.count + chunk_points - 1) / chunk_points; }
+
+// What all points show together, in areas of one.
+float sum_shown(const SplatPerson& person) {
+    const hn::RepartitionToWide<Lanes> wide;
+    auto sum = hn::Zero(wide);
+    for (int chunk = 0; chunk < chunks_of(person); ++chunk) {
+        for (int lane = 0; lane < chunk_points; lane += static_cast<int>(hn::Lanes(lanes))) {
+            Vector normal[3];
+            load_normals(person.normals + chunk * 3 * chunk_points + lane, normal);
+            const Vector part = shown(person, normal, chunk, lane);
+            sum = hn::Add(sum, hn::Add(hn::PromoteTo(wide, hn::LowerHalf(part)),
+                                       hn::PromoteTo(wide, hn::UpperHalf(hn::Half<Lanes>(), part))));
+        }
+    }
+    return static_cast<float>(hn::GetLane(hn::SumOfLanes(wide, sum))) / 32767.0f;
+}
+
+std::int16_t area_of(const SplatPerson& person) {
+    float each = person.area_each;
+    if (person.total > 0.0f) {
+        const float sum = sum_shown(person);
+        each = sum > 0.0f ? person.total / sum : 0.0f;
+    }
+    constexpr float most = 32767.0f;
+    return static_cast<std::int16_t>(std::min(each * cell_full + 0.5f, most));
+}
+
+// What is found of a chunk before it is added to the patch.
+struct alignas(64) Staged {
+    std::uint64_t light_and_area[chunk_points];
+    std::int16_t back[chunk_points];     // way back times area
+    std::int16_t offset[chunk_points];   // of the first of its four cells
+    std::int16_t x[chunk_points], y[chunk_points];  // [1/128 cell] from that cell's middle
+    std::uint32_t used;                  // a bit a point
+};
+
+// Linear colour of the surface, 32767 = 1.
+Vector albedo(const SplatPerson& person, int channel, int chunk, int lane, Vector index_bytes) {
+    if (person.shares) {
+        const Vector own = hn::Load(lanes, person.colors + channel * chunk_points + lane);
+        Vector tint = hn::Zero(lanes);
+        for (int slot = 0; slot <= model::slot_count; ++slot)
+            tint = hn::Add(tint, times(hn::Load(lanes, person.shares + slot * chunk_points + lane),
+                                       all(person.palette[channel][slot])));
+        return times(own, tint);
+    }
+    const Vector own = hn::Load(lanes, person.colors + (chunk * 3 + channel) * chunk_points + lane);
+    const hn::Repartition<std::uint8_t, Lanes> bytes;
+    const auto table = hn::LoadDup128(lanes, person.palette[channel].data());
+    const Vector tint = hn::TableLookupBytes(table, hn::BitCast(lanes, hn::BitCast(bytes, index_bytes)));
+    return times(own, tint);
+}
+
+struct Place {
+    std::int16_t x, y;  // [1/128 cell] the middle of the body, from the middle of the patch's first cell
+};
+
+void stage(const SplatPerson& person, const SplatLight& light, const Patch& patch, Place place, std::int16_t area,
+           int chunk, int lane, Staged& out) {
+    const std::int16_t* from = person.positions + chunk * 3 * chunk_points + lane;
+    Vector position[3], normal[3];
+    for (int axis = 0; axis < 3; ++axis) position[axis] = hn::Load(lanes, from + axis * chunk_points);
+    load_normals(person.normals + chunk * 3 * chunk_points + lane, normal);
+
+    const Vector cover = times(shown(person, normal, chunk, lane), all(area));
+    const Vector back = dot(position, person.axes[2]);
+    // 1 / (1 + t) - 1 = -t + t^2 - t^3 ...: what is farther back is smaller.
+    const Vector t = times(back, all(person.nearness));
+    const Vector t2 = times(t, t);
+    const Vector shrink = hn::Sub(hn::Sub(t2, t), times(t2, t));
+    Vector x = dot(position, person.axes[0]), y = dot(position, person.axes[1]);
+    x = hn::SaturatedAdd(hn::Add(x, times(x, shrink)), all(place.x));
+    y = hn::SaturatedAdd(hn::Add(y, times(y, shrink)), all(place.y));
+
+    const Vector column = hn::ShiftRight<cell_bits>(x), row = hn::ShiftRight<cell_bits>(y);
+    const auto within = [](Vector at, int size) {
+        return hn::And(hn::Gt(at, all(-1)), hn::Lt(at, all(static_cast<std::int16_t>(size - 1))));
+    };
+    const auto used = hn::And(hn::Gt(cover, hn::Zero(lanes)),
+                              hn::And(within(column, patch.width), within(row, patch.height)));
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(lanes, used, bits);
+    std::uint32_t mask = 0;
+    for (int i = 0; i < 4; ++i) mask |= std::uint32_t{bits[i]} << (8 * i);
+    out.used |= mask << lane;
+    if (mask == 0) return;
+
+    const Vector sunlit = hn::Max(dot(normal, person.to_sun), hn::Zero(lanes));
+    const Vector index = hn::Load(hn::Rebind<std::int16_t, Lanes>(),
+                                  reinterpret_cast<const std::int16_t*>(person.slots) + chunk * chunk_points + lane);
+    Vector shade[3];
+    const Vector up = normal[1];
+    for (int channel = 0; channel < 3; ++channel) {
+        const Vector lit = hn::Add(hn::Add(all(light.level[channel]), times(up, all(light.slope[channel]))),
+                                   times(sunlit, all(light.sun[channel])));
+        const Vector color = hn::Min(times(lit, albedo(person, channel, chunk, lane, index)), all(16383));
+        shade[channel] = times(hn::Add(color, color), cover);
+    }
+    hn::StoreInterleaved4(shade[0], shade[1], shade[2], cover, lanes,
+                          reinterpret_cast<std::int16_t*>(out.light_and_area + lane));
+    hn::Store(times(back, cover), lanes, out.back + lane);
+    hn::Store(hn::Add(hn::Mul(row, all(static_cast<std::int16_t>(patch.width))), column), lanes, out.offset + lane);
+    hn::Store(hn::And(x, all((1 << cell_bits) - 1)), lanes, out.x + lane);
+    hn::Store(hn::And(y, all((1 << cell_bits) - 1)), lanes, out.y + lane);
+}
+
+// Shares the point out among its four cells; what one gets the others don't, so that none of it is lost.
+void add(const Staged& staged, const Patch& patch, int i) {
+    const hn::FixedTag<std::uint64_t, 2> words;
+    const auto value = hn::BitCast(
+        pixel, hn::InterleaveLower(words, hn::Set(words, staged.light_and_area[i]),
+                                   hn::Set(words, static_cast<std::uint64_t>(static_cast<std::uint16_t>(staged.back[i])))));
+    constexpr int to_unit = 15 - cell_bits;
+    const auto right = hn::Set(pixel, static_cast<std::int16_t>(staged.x[i] << to_unit));
+    const auto down = hn::Set(pixel, static_cast<std::int16_t>(staged.y[i] << to_unit));
+    const auto below = hn::MulFixedPoint15(value, down);
+    const auto above = hn::Sub(value, below);
+    const auto add_row = [&](std::int16_t* cell, hn::Vec<Pixel> row) HWY_ATTR {
+        const auto second = hn::MulFixedPoint15(row, right);
+        hn::Store(hn::SaturatedAdd(hn::Load(pixel, cell), hn::Sub(row, second)), pixel, cell);
+        hn::Store(hn::SaturatedAdd(hn::Load(pixel, cell + 8), second), pixel, cell + 8);
+    };
+    std::int16_t* cell = patch.cells + 8 * staged.offset[i];
+    add_row(cell, above);
+    add_row(cell + 8 * patch.width, below);
+}
+
+}  // namespace
+
+void Splat(const SplatPerson& person, const SplatLight& light, const Patch& patch) {
+    const std::int16_t area = area_of(person);
+    if (area == 0) return;
+    // From the middle of the patch's first cell, where all of a point would go.
+    const auto place_of = [](std::int32_t middle, int first) {
+        constexpr int half = 1 << (cell_bits - 1);
+        return static_cast<std::int16_t>(std::clamp(middle - (first << cell_bits) - half, -32768, 32767));
+    };
+    const Place place{place_of(person.middle[0], patch.x0), place_of(person.middle[1], patch.y0)};
+    Staged staged;
+    for (int chunk = 0; chunk < chunks_of(person); ++chunk) {
+        staged.used = 0;
+        for (int lane = 0; lane < chunk_points; lane += static_cast<int>(hn::Lanes(lanes)))
+            stage(person, light, patch, place, area, chunk, lane, staged);
+        for (std::uint32_t left = staged.used; left != 0; left &= left - 1)
+            add(staged, patch, std::countr_zero(left));
+    }
+}
+
+}  // namespace render::native::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace render::native {
+
+HWY_EXPORT(Splat);
+
+void splat(const SplatPerson& person, const SplatLight& light, const Patch& patch) {
+    HWY_DYNAMIC_DISPATCH(Splat)(person, light, patch);
+}
+
+}  // namespace render::native
+
+#endif

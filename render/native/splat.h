@@ -1,0 +1,71 @@
+// People as points with coverage. A person's points are first added up in a patch of their own, each as the area that
+// it covers there, spread over the four cells around it; the patch is then laid behind what is already in the tile.
+//
+// Within a patch areas add: the points lie side by side on one surface, and those that it hides are left out. Between
+// people coverage multiplies: they know nothing of one another. docs/native-splats.md has the whole story.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "model/slot.h"
+
+namespace render::native {
+
+// Fixed-point units.
+inline constexpr int cell_bits = 7;                   // positions: 128 steps a cell
+inline constexpr std::int16_t cell_full = 8192;       // a cell that is covered once; up to 4 times fit
+inline constexpr std::uint16_t pixel_full = 32767;    // a pixel that is covered
+inline constexpr int largest_patch_side = 180;        // [cells]: offsets fit 16 bits
+
+// One person, as their points are drawn. 16-bit fixed point: 32767 = 1 where nothing else is said.
+struct SplatPerson {
+    // Of the pose (splat_model.h).
+    const std::int16_t* positions;
+    const std::int8_t* normals;
+    std::array<const std::uint32_t*, 4> visible;
+    std::array<std::int16_t, 4> visible_share;
+    const std::int16_t* colors;
+    const std::uint16_t* slots;   // of long prefixes
+    const std::int16_t* shares;   // of short ones, else null
+    bool two_sided;
+    // Screen x, y [1/128 cell] and the way back from the middle [of `reach`], of a position of 32768, by axis.
+    std::array<std::array<std::int16_t, 3>, 3> axes;
+    std::array<std::int32_t, 2> middle;  // on the screen [1/128 cell]
+    std::int16_t nearness;               // reach / depth: what perspective makes of the way back
+    std::array<std::int16_t, 3> to_eye;  // in the model's axes
+    std::array<std::int16_t, 3> to_sun;
+    std::array<std::array<std::int16_t, 8>, 3> palette;  // linear, by channel, of slots 0 to slot_count
+    int count;                           // points, the last of which counts for `last_share`
+    std::int16_t last_share;
+    float total;        // [cells] that the person covers; 0: as many as `area_each` gives
+    float area_each;    // [cells] of a point that faces the eye
+    float depth, reach;  // [m] view depth of the middle; how far a point may be from it
+    std::int16_t x0, y0, x1, y1;  // [cells] what they may touch
+    float cell;                   // [px] side of a cell
+};
+
+// The same for everybody: 16384 = 1.
+struct SplatLight {
+    std::array<std::int16_t, 3> level, slope, sun;  // level + slope * normal.y + sun * max(0, normal . to_sun)
+};
+
+// Cells [x0, x0 + width) x [y0, y0 + height) of the screen, eight 16-bit lanes each: light of red, green and blue,
+// coverage, and the way back times coverage; the rest is unused.
+struct Patch {
+    std::int16_t* cells = nullptr;
+    int x0 = 0, y0 = 0, width = 0, height = 0;
+};
+
+// Adds a person up in a patch that is all 0.
+void splat(const SplatPerson& person, const SplatLight& light, const Patch& patch);
+
+// Rows of a tile that people are laid into, front to back: linear red, green, blue, and coverage.
+struct CoverRows {
+    std::uint16_t* pixels;  // 4 a pixel, of the tile's first
+    int stride;             // [pixels]
+    const float* depth;     // of what lies behind: near_plane / view depth, of the tile's first pixel
+    int depth_stride;
+};
+
+}  // namespace render::native

@@ -1,0 +1,142 @@
+#include "render/native/splat_model.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "pointsample/prefix_look.h"
+#include "render/native/self_occlusion.h"
+
+namespace render::native {
+
+namespace {
+
+std::int16_t q15(float value) {
+    return static_cast<std::int16_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 32767.0f));
+}
+
+// The shaders' linear.
+std::int16_t linear(std::uint8_t srgb) {
+    const float share = static_cast<float>(srgb) / 255.0f;
+    return q15(share * share);
+}
+
+// Two bytes that find a slot's 16-bit entry in a table of bytes.
+std::uint16_t table_index(model::Slot slot) {
+    return static_cast<std::uint16_t>((2 * slot + 1) << 8 | 2 * slot);
+}
+
+// So many triangles and points are looked at, over all directions and key poses.
+constexpr double look_budget = 1.5e8;
+
+}  // namespace
+
+SplatModel::SplatModel(const figures::Figure& figure)
+    : points_(figure.poses->point_count),
+      chunks_((points_ + chunk_points - 1) / chunk_points),
+      double_sided_(figure.mesh->double_sided()),
+      area_(figure.poses->area) {
+    if (points_ == 0) return;
+    pack_poses(figure);
+    pack_looks(figure);
+    choose_keys(figure);
+    look_around(figure);
+}
+
+void SplatModel::pack_poses(const figures::Figure& figure) {
+    const motion::PoseTable& poses = *figure.poses;
+    const std::size_t pose_size = std::size_t{3} * chunk_points * chunks_;
+    positions_.resize(pose_size * poses.pose_count);
+    normals_.resize(pose_size * poses.pose_count);
+    extents_.resize(static_cast<std::size_t>(poses.pose_count));
+    tbb::parallel_for(0, poses.pose_count, [&](int pose) {
+        Extent extent;
+        extent.min.fill(32767);
+        extent.max.fill(-32768);
+        for (int i = 0; i < chunks_ * chunk_points; ++i) {
+            const int point = std::min(i, points_ - 1);  // the last chunk is filled up
+            const motion::PosedVertex& posed =
+                poses.points[static_cast<std::size_t>(pose) * poses.point_count + point];
+            const glm::vec3 normal = motion::unpack_normal(posed);
+            const std::array<std::uint16_t, 3> packed{posed.x, posed.y, posed.z};
+            const std::size_t at = pose_size * pose + (i / chunk_points) * 3 * chunk_points + i % chunk_points;
+            for (int axis = 0; axis < 3; ++axis) {
+                const auto position = static_cast<std::int16_t>(packed[axis] - 32768);
+                positions_[at + axis * chunk_points] = position;
+                normals_[at + axis * chunk_points] = static_cast<std::int8_t>(std::lround(127.0f * normal[axis]));
+                extent.min[axis] = std::min(extent.min[axis], position);
+                extent.max[axis] = std::max(extent.max[axis], position);
+            }
+        }
+        extents_[static_cast<std::size_t>(pose)] = extent;
+    });
+}
+
+void SplatModel::pack_looks(const figures::Figure& figure) {
+    const pointsample::PointModel& model = *figure.points;
+    colors_.resize(std::size_t{3} * chunk_points * chunks_);
+    slots_.resize(std::size_t{chunk_points} * chunks_);
+    for (int i = 0; i < chunks_ * chunk_points; ++i) {
+        const int point = std::min(i, points_ - 1);
+        for (int channel = 0; channel < 3; ++channel)
+            colors_[((i / chunk_points) * 3 + channel) * chunk_points + i % chunk_points] =
+                linear(model.colors[point][channel]);
+        slots_[i] = table_index(model.slots[point]);
+    }
+    mean_colors_.resize(std::size_t{3} * chunk_points * (longest_mean_prefix + 1));
+    mean_shares_.resize(std::size_t{1 + model::slot_count} * chunk_points * (longest_mean_prefix + 1));
+    for (int prefix = 1; prefix <= std::min(longest_mean_prefix, points_); ++prefix) {
+        std::int16_t* colors = &mean_colors_[prefix * 3 * chunk_points];
+        std::int16_t* shares = &mean_shares_[prefix * (1 + model::slot_count) * chunk_points];
+        int point = 0;
+        for (const pointsample::PrefixLook& look : pointsample::prefix_looks(model, prefix)) {
+            for (int channel = 0; channel < 3; ++channel)
+                colors[channel * chunk_points + point] = linear(look.color[channel]);
+            float untinted = 1.0f;
+            for (int slot = 1; slot <= model::slot_count; ++slot) {
+                const float share = static_cast<float>(look.shares[slot - 1]) / 255.0f;
+                untinted -= share;
+                shares[slot * chunk_points + point] = q15(share);
+            }
+            shares[point++] = q15(untinted);
+        }
+    }
+}
+
+// As many as the budget allows, spread evenly over each clip.
+void SplatModel::choose_keys(const figures::Figure& figure) {
+    const motion::PoseTable& poses = *figure.poses;
+    const double each = direction_nodes * (static_cast<double>(figure.mesh->triangle_count()) + points_);
+    const int step = std::max(1, static_cast<int>(std::ceil(poses.pose_count * each / look_budget)));
+    key_of_.resize(static_cast<std::size_t>(poses.pose_count));
+    for (const motion::ClipPoses& clip : poses.clips) {
+        const int keys = (clip.pose_count + step - 1) / step;
+        const auto first = static_cast<std::uint32_t>(key_poses_.size());
+        for (int key = 0; key < keys; ++key)
+            key_poses_.push_back(static_cast<std::uint32_t>(clip.first_pose + key * step));
+        for (int pose = 0; pose < clip.pose_count; ++pose)  // clips are loops: behind the last key comes the first
+            key_of_[static_cast<std::size_t>(clip.first_pose + pose)] =
+                first + static_cast<std::uint32_t>((pose + step / 2) / step % keys);
+    }
+}
+
+void SplatModel::look_around(const figures::Figure& figure) {
+    const std::size_t looks = key_poses_.size() * direction_nodes;
+    visible_.assign(looks * chunks_, 0);
+    silhouettes_.resize(looks);
+    summed_.resize(looks);
+    const float area_each = area_ / static_cast<float>(points_);
+    tbb::parallel_for(std::size_t{0}, key_poses_.size(), [&](std::size_t key) {
+        SelfOcclusion body(figure, static_cast<int>(key_poses_[key]), points_);
+        for (int node = 0; node < direction_nodes; ++node) {
+            const std::size_t look = key * direction_nodes + node;
+            const SelfOcclusion::Seen seen =
+                body.look_from(direction_of(node), {&visible_[look * chunks_], static_cast<std::size_t>(chunks_)});
+            silhouettes_[look] = seen.silhouette;
+            summed_[look] = area_each * seen.facing;
+        }
+    });
+}
+
+}  // namespace render::native

@@ -1,0 +1,89 @@
+// A character's points as the native way of drawing reads them: in chunks, structure of arrays, pose after pose; which
+// of them are seen from where; and how large the silhouette is from there.
+#pragma once
+
+#include <tbb/cache_aligned_allocator.h>
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "figures/figure.h"
+#include "render/native/directions.h"
+
+namespace render::native {
+
+inline constexpr int chunk_points = 32;
+// Prefixes up to so long show the mean looks of the surface that their points stand for (pointsample/prefix_look.h).
+inline constexpr int longest_mean_prefix = chunk_points;
+// Of a handful of points none may happen to face the eye: each stands for both sides of the body.
+inline constexpr int longest_two_sided_prefix = 8;
+
+template <typename T>
+using Array = std::vector<T, tbb::cache_aligned_allocator<T>>;
+
+class SplatModel {
+public:
+    // Takes about a second of processor time for a person of a
+    // thousand poses, on all threads.
+    explicit SplatModel(const figures::Figure& figure);
+
+    int points() const { return points_; }
+    int chunks() const { return chunks_; }
+    bool double_sided() const { return double_sided_; }
+
+    // Positions of a pose, -32768 to 32767 over the character's box, and normals, 127 = 1: [chunk][axis][chunk_points].
+    const std::int16_t* positions(std::uint32_t pose) const { return &positions_[pose * chunks_ * 3 * chunk_points]; }
+    const std::int8_t* normals(std::uint32_t pose) const { return &normals_[pose * chunks_ * 3 * chunk_points]; }
+    // What a pose's points span, in the positions' own units.
+    struct Extent {
+        std::array<std::int16_t, 3> min, max;
+    };
+    const Extent& extent(std::uint32_t pose) const { return extents_[pose]; }
+
+    // Colours of all points, linear, 32767 = 1: [chunk][channel][chunk_points]; and their slots: [chunk][chunk_points].
+    const std::int16_t* colors() const { return colors_.data(); }
+    const std::uint16_t* slots() const { return slots_.data(); }
+    // Mean colours of a prefix of so many points, and its shares of each slot from no_slot on (32767 = all):
+    // [channel][chunk_points], [slot][chunk_points].
+    const std::int16_t* mean_colors(int prefix) const { return &mean_colors_[prefix * 3 * chunk_points]; }
+    const std::int16_t* mean_shares(int prefix) const {
+        return &mean_shares_[prefix * (1 + model::slot_count) * chunk_points];
+    }
+
+    // From one direction, in a pose near to the one asked for: which points nothing of the body hides, a bit each; the
+    // silhouette's area [model units^2]; and the same as the sum over the visible points says it, each of area() /
+    // points() times the cosine to its normal.
+    const std::uint32_t* visible(std::uint32_t pose, int node) const {
+        return &visible_[(std::size_t{key_of_[pose]} * direction_nodes + node) * chunks_];
+    }
+    float silhouette(std::uint32_t pose, int node) const {
+        return silhouettes_[std::size_t{key_of_[pose]} * direction_nodes + node];
+    }
+    float summed(std::uint32_t pose, int node) const {
+        return summed_[std::size_t{key_of_[pose]} * direction_nodes + node];
+    }
+    float area() const { return area_; }  // [model units^2] that the points stand for together
+
+private:
+    void pack_poses(const figures::Figure& figure);
+    void pack_looks(const figures::Figure& figure);
+    void choose_keys(const figures::Figure& figure);
+    void look_around(const figures::Figure& figure);
+
+    int points_ = 0, chunks_ = 0;
+    bool double_sided_ = false;
+    float area_ = 0;
+    Array<std::int16_t> positions_, colors_, mean_colors_, mean_shares_;
+    Array<std::int8_t> normals_;
+    Array<std::uint16_t> slots_;
+    std::vector<Extent> extents_;
+    std::vector<std::uint32_t> key_of_;    // a pose's key pose, as a number of its own
+    std::vector<std::uint32_t> key_poses_;
+    std::vector<std::uint32_t> visible_;   // [key][node][chunk]
+    std::vector<float> silhouettes_, summed_;  // [key][node]
+};
+
+}  // namespace render::native
