@@ -22,16 +22,18 @@ public:
     void begin(const Tile& tile);
     const Tile& tile() const { return tile_; }
 
-    // Lays a patch behind what is there, where it is nearer than the backdrop.
+    // Lays a patch behind what is there, where it is nearer than the backdrop, and leaves it all 0.
     void lay(const SplatPerson& person, const Patch& patch, const BackdropPicture& behind);
 
     // Puts the tile into the picture: the backdrop shows through where nobody covers it.
-    void resolve(const BackdropPicture& behind, Plane<std::uint32_t>& out) const;
-
-    Cover* row(int y) { return &cover_[static_cast<std::size_t>(y - tile_.y0) * tile_side - tile_.x0]; }
+    void resolve(const BackdropPicture& behind, Plane<std::uint32_t>& out);
 
 private:
-    void lay_row(const SplatPerson& person, const Patch& patch, const BackdropPicture& behind, int y);
+    // A pixel around the tile, and a whole group of cells to the right, take what is laid beyond it.
+    static constexpr int stride = tile_side + 2 * group_cells;
+    Cover* cover_at(int x, int y) {
+        return &cover_[static_cast<std::size_t>(y - tile_.y0 + 1) * stride + (x - tile_.x0 + group_cells)];
+    }
 
     Tile tile_;
     std::vector<Cover> cover_;

@@ -16,8 +16,9 @@ constexpr float normal_unit = 32767.0f / 32512.0f;
 // Sums over so few points depend on which they are: they are made to cover what the silhouette does, one by one.
 constexpr std::uint32_t longest_summed_prefix = 64;
 
+// To the nearest; the offset keeps what is cut off positive.
 std::int16_t fixed(float value, float one = unit) {
-    return static_cast<std::int16_t>(std::clamp(std::floor(value * one + 0.5f), -32767.0f, 32767.0f));
+    return static_cast<std::int16_t>(static_cast<int>(std::clamp(value * one, -unit, unit) + 32768.5f) - 32768);
 }
 
 std::array<std::int16_t, 3> fixed(glm::vec3 value, float one = unit) {

@@ -91,10 +91,9 @@ void Renderer::draw_tile(std::size_t index) {
         patch.width = std::min<int>(person.x1, tile.x1 + 1) - patch.x0;
         patch.height = std::min<int>(person.y1, tile.y1 + 1) - patch.y0;
         if (patch.width < 2 || patch.height < 2) continue;
-        const std::size_t size = std::size_t{8} * patch.width * patch.height;
-        if (bench.cells.size() < size) bench.cells.resize(size);
-        std::memset(bench.cells.data(), 0, size * sizeof(std::int16_t));
+        patch.stride = (patch.width + group_cells - 1) / group_cells * group_cells;
         patch.cells = bench.cells.data();
+        patch.used = bench.used.data();
         splat(person, points_.light(), patch);
         bench.cover.lay(person, patch, behind_);
     }

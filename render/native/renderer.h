@@ -30,7 +30,8 @@ private:
     // What a thread needs to draw a tile.
     struct Bench {
         CoverTile cover;
-        std::vector<std::int16_t> cells;
+        Array<std::int16_t> cells = Array<std::int16_t>(std::size_t{8} * largest_patch_side * largest_patch_side);
+        std::array<std::uint64_t, largest_patch_side> used{};  // both all 0 between two people
     };
 
     void sort_by_depth(const Frame& frame);

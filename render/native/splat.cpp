@@ -87,13 +87,13 @@ std::int16_t area_of(const SplatPerson& person) {
     return static_cast<std::int16_t>(std::min(each * cell_full + 0.5f, most));
 }
 
-// What is found of a chunk before it is added to the patch.
+// What is found of a chunk before it is added to the patch. One more at the end: they are read eight bytes at a time.
 struct alignas(64) Staged {
     std::uint64_t light_and_area[chunk_points];
-    std::int16_t back[chunk_points];     // way back times area
-    std::int16_t offset[chunk_points];   // of the first of its four cells
-    std::int16_t x[chunk_points], y[chunk_points];  // [1/128 cell] from that cell's middle
-    std::uint32_t used;                  // a bit a point
+    std::int16_t back[chunk_points + 4];                     // way back times area
+    std::int16_t column[chunk_points], row[chunk_points];    // of the first of its four cells
+    std::int16_t right[chunk_points], down[chunk_points];    // how far it is from that one's middle, 32768 = a cell
+    std::uint32_t used;                                      // a bit a point
 };
 
 // Linear colour of the surface, 32767 = 1.
@@ -161,30 +161,44 @@ void stage(const SplatPerson& person, const SplatLight& light, const Patch& patc
     hn::StoreInterleaved4(shade[0], shade[1], shade[2], cover, lanes,
                           reinterpret_cast<std::int16_t*>(out.light_and_area + lane));
     hn::Store(times(back, cover), lanes, out.back + lane);
-    hn::Store(hn::Add(hn::Mul(row, all(static_cast<std::int16_t>(patch.width))), column), lanes, out.offset + lane);
-    hn::Store(hn::And(x, all((1 << cell_bits) - 1)), lanes, out.x + lane);
-    hn::Store(hn::And(y, all((1 << cell_bits) - 1)), lanes, out.y + lane);
+    hn::Store(column, lanes, out.column + lane);
+    hn::Store(row, lanes, out.row + lane);
+    const auto within_cell = [](Vector at) HWY_ATTR {
+        return hn::ShiftLeft<15 - cell_bits>(hn::And(at, all((1 << cell_bits) - 1)));
+    };
+    hn::Store(within_cell(x), lanes, out.right + lane);
+    hn::Store(within_cell(y), lanes, out.down + lane);
 }
 
-// Shares the point out among its four cells; what one gets the others don't, so that none of it is lost.
+// What a cell gets its neighbour doesn't, so that nothing is lost.
+void add_row(std::int16_t* cell, hn::Vec<Pixel> row, hn::Vec<Pixel> right) {
+    const auto second = hn::MulFixedPoint15(row, right);
+    const auto first = hn::Sub(row, second);
+#if HWY_MAX_BYTES >= 32
+    const hn::FixedTag<std::int16_t, 16> both;
+    hn::StoreU(hn::SaturatedAdd(hn::LoadU(both, cell), hn::Combine(both, second, first)), both, cell);
+#else
+    hn::Store(hn::SaturatedAdd(hn::Load(pixel, cell), first), pixel, cell);
+    hn::Store(hn::SaturatedAdd(hn::Load(pixel, cell + 8), second), pixel, cell + 8);
+#endif
+}
+
+// Shares a point out among its four cells.
 void add(const Staged& staged, const Patch& patch, int i) {
-    const hn::FixedTag<std::uint64_t, 2> words;
-    const auto value = hn::BitCast(
-        pixel, hn::InterleaveLower(words, hn::Set(words, staged.light_and_area[i]),
-                                   hn::Set(words, static_cast<std::uint64_t>(static_cast<std::uint16_t>(staged.back[i])))));
-    constexpr int to_unit = 15 - cell_bits;
-    const auto right = hn::Set(pixel, static_cast<std::int16_t>(staged.x[i] << to_unit));
-    const auto down = hn::Set(pixel, static_cast<std::int16_t>(staged.y[i] << to_unit));
-    const auto below = hn::MulFixedPoint15(value, down);
-    const auto above = hn::Sub(value, below);
-    const auto add_row = [&](std::int16_t* cell, hn::Vec<Pixel> row) HWY_ATTR {
-        const auto second = hn::MulFixedPoint15(row, right);
-        hn::Store(hn::SaturatedAdd(hn::Load(pixel, cell), hn::Sub(row, second)), pixel, cell);
-        hn::Store(hn::SaturatedAdd(hn::Load(pixel, cell + 8), second), pixel, cell + 8);
-    };
-    std::int16_t* cell = patch.cells + 8 * staged.offset[i];
-    add_row(cell, above);
-    add_row(cell + 8 * patch.width, below);
+    const hn::FixedTag<std::int16_t, 4> half;
+    const auto value = hn::Combine(
+        pixel, hn::LoadU(half, staged.back + i),
+        hn::LoadU(half, reinterpret_cast<const std::int16_t*>(staged.light_and_area + i)));
+    const int column = staged.column[i], row = staged.row[i];
+    const auto right = hn::Set(pixel, staged.right[i]);
+    const auto below = hn::MulFixedPoint15(value, hn::Set(pixel, staged.down[i]));
+    std::int16_t* cell = patch.cells + 8 * (row * patch.stride + column);
+    add_row(cell, hn::Sub(value, below), right);
+    add_row(cell + 8 * patch.stride, below, right);
+    const std::uint64_t groups =
+        std::uint64_t{1} << (column / group_cells) | std::uint64_t{1} << ((column + 1) / group_cells);
+    patch.used[row] |= groups;
+    patch.used[row + 1] |= groups;
 }
 
 }  // namespace

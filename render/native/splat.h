@@ -16,7 +16,6 @@ namespace render::native {
 inline constexpr int cell_bits = 7;                   // positions: 128 steps a cell
 inline constexpr std::int16_t cell_full = 8192;       // a cell that is covered once; up to 4 times fit
 inline constexpr std::uint16_t pixel_full = 32767;    // a pixel that is covered
-inline constexpr int largest_patch_side = 180;        // [cells]: offsets fit 16 bits
 
 // One person, as their points are drawn. 16-bit fixed point: 32767 = 1 where nothing else is said.
 struct SplatPerson {
@@ -51,21 +50,17 @@ struct SplatLight {
 };
 
 // Cells [x0, x0 + width) x [y0, y0 + height) of the screen, eight 16-bit lanes each: light of red, green and blue,
-// coverage, and the way back times coverage; the rest is unused.
+// coverage, and the way back times coverage; the rest is of no meaning. Rows are `stride` cells apart.
 struct Patch {
     std::int16_t* cells = nullptr;
-    int x0 = 0, y0 = 0, width = 0, height = 0;
+    std::uint64_t* used = nullptr;  // a row each: which groups of group_cells cells aren't all 0, a bit each
+    int x0 = 0, y0 = 0, width = 0, height = 0, stride = 0;
 };
+inline constexpr int group_cells = 4;
+inline constexpr int largest_patch_side = 132;  // [cells]; offsets of cells fit 16 bits
 
 // Adds a person up in a patch that is all 0.
 void splat(const SplatPerson& person, const SplatLight& light, const Patch& patch);
 
-// Rows of a tile that people are laid into, front to back: linear red, green, blue, and coverage.
-struct CoverRows {
-    std::uint16_t* pixels;  // 4 a pixel, of the tile's first
-    int stride;             // [pixels]
-    const float* depth;     // of what lies behind: near_plane / view depth, of the tile's first pixel
-    int depth_stride;
-};
 
 }  // namespace render::native
