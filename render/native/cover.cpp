@@ -22,10 +22,11 @@ namespace render::native {
 // A row of a patch of cells as large as pixels, and what it is laid into, from the same pixel on.
 struct CoverRow {
     std::int16_t* cells;
-    std::uint64_t used;  // groups of cells
+    std::uint64_t used;   // groups of cells
     Cover* cover;
-    const float* depth;  // of the backdrop
-    int first, last;     // only these cells are in the tile
+    Flock* flock;
+    const float* depth;   // of the backdrop
+    int first, last;      // only these cells are in the tile
 };
 
 }  // namespace render::native
@@ -103,6 +104,7 @@ void LayRow(const SplatPerson& person, const CoverRow& row) {
     alignas(64) std::int16_t limits[largest_patch_side + 2 * most_lanes];
     find_limits(person, row, limits);
     constexpr int step = static_cast<int>(hn::MaxLanes(cells)) / 4;
+    const auto depth = all(person.depth_code), thickness = all(person.thickness);
     const hn::Repartition<std::uint64_t, Cells> words;
     for (std::uint64_t left = row.used; left != 0; left &= left - 1) {
         const int group = group_cells * std::countr_zero(left);
@@ -115,14 +117,21 @@ void LayRow(const SplatPerson& person, const CoverRow& row) {
             const auto light = hn::BitCast(cells, hn::ConcatEven(words, b, a));
             const auto back = spread<0>(hn::BitCast(cells, hn::ConcatOdd(words, b, a)));
             const auto share = spread<3>(light);
-            const auto shown = hn::Lt(back, hn::MulFixedPoint15(share, spread_four(limits + group, i)));
             const auto once = hn::Min(hn::MulFixedPoint15(light, thinning(share)), all(cell_full));
             const auto unit = hn::ShiftLeft<2>(hn::Sub(once, hn::ShiftRight<13>(once)));  // 8192 -> 32764
+
             auto* to = reinterpret_cast<std::int16_t*>(row.cover + group + i);
-            const auto there = hn::LoadU(cells, to);
-            const auto open = hn::Sub(all(pixel_full), spread<3>(there));
-            const auto added = hn::IfThenElseZero(shown, hn::MulFixedPoint15(unit, open));
-            hn::StoreU(hn::Add(there, added), cells, to);
+            auto* flock = reinterpret_cast<std::int16_t*>(row.flock + group + i);
+            const auto there = hn::LoadU(cells, to), others = hn::LoadU(cells, flock);
+            const auto open = hn::Max(hn::Sub(all(pixel_full), spread<3>(there)), hn::Zero(cells));
+            const auto apart = hn::Sub(depth, spread<1>(others));
+            const auto beside = hn::And(hn::Gt(apart, all(-1)), hn::Lt(apart, thickness));
+            const auto before = hn::IfThenElse(beside, spread<0>(others), open);
+            const auto shown = hn::And(hn::Lt(back, hn::MulFixedPoint15(share, spread_four(limits + group, i))),
+                                       hn::Gt(open, all(pixel_full / 4096)));
+            hn::StoreU(hn::SaturatedAdd(there, hn::IfThenElseZero(shown, hn::MulFixedPoint15(unit, before))), cells, to);
+            const auto joined = hn::IfThenElse(beside, spread<1>(others), depth);
+            hn::StoreU(hn::IfThenElse(hn::And(shown, hn::Gt(share, hn::Zero(cells))), hn::OddEven(joined, before), others), cells, flock);
         }
     }
 }
@@ -138,12 +147,15 @@ void ResolveRow(const Cover* cover, const std::uint32_t* behind, std::uint32_t* 
             hn::StoreU(back, words, to + x);
             continue;
         }
-        constexpr float unit = 32767.0f, steps = 255.0f;
-        const auto open = hn::Mul(hn::Sub(hn::Set(floats, unit), part(share)), hn::Set(floats, 1.0f / unit));
+        constexpr float unit = pixel_full, steps = 255.0f;
+        // Of a pixel that is covered more than once everybody gives way alike.
+        const auto covered = hn::Max(part(share), hn::Set(floats, unit));
+        const auto open = hn::Div(hn::Sub(covered, part(share)), covered);
+        const auto scale = hn::Div(hn::Set(floats, 1.0f), covered);
         auto out = hn::Set(words, 0xff000000u);
         const auto channel = [&](auto value, auto code) HWY_ATTR {
             const auto root = hn::Mul(hn::ConvertTo(floats, hn::BitCast(ints, code)), hn::Set(floats, 1.0f / steps));
-            const auto sum = hn::Add(hn::Mul(part(value), hn::Set(floats, 1.0f / unit)), hn::Mul(open, hn::Mul(root, root)));
+            const auto sum = hn::Add(hn::Mul(part(value), scale), hn::Mul(open, hn::Mul(root, root)));
             const auto coded = hn::Mul(hn::Sqrt(hn::Min(sum, hn::Set(floats, 1.0f))), hn::Set(floats, steps));
             return hn::BitCast(words, hn::ConvertTo(ints, hn::Add(coded, hn::Set(floats, 0.5f))));
         };
@@ -164,11 +176,12 @@ namespace render::native {
 HWY_EXPORT(LayRow);
 HWY_EXPORT(ResolveRow);
 
-CoverTile::CoverTile() : cover_(std::size_t{stride} * (tile_side + 2)) {}
+CoverTile::CoverTile() : cover_(std::size_t{stride} * (tile_side + 2)), flocks_(cover_.size()) {}
 
 void CoverTile::begin(const Tile& tile) {
     tile_ = tile;
     std::memset(cover_.data(), 0, cover_.size() * sizeof(Cover));
+    std::fill(flocks_.begin(), flocks_.end(), Flock{});
 }
 
 void CoverTile::lay(const SplatPerson& person, const Patch& patch, const BackdropPicture& behind) {
@@ -179,7 +192,8 @@ void CoverTile::lay(const SplatPerson& person, const Patch& patch, const Backdro
         if (used == 0) continue;
         const int row = std::clamp(patch.y0 + y, tile_.y0, tile_.y1 - 1);
         const bool is_within = row == patch.y0 + y;
-        lay_row(person, {patch.cells + std::ptrdiff_t{8} * patch.stride * y, used, cover_at(patch.x0, patch.y0 + y),
+        lay_row(person, {patch.cells + std::ptrdiff_t{8} * patch.stride * y, used,
+                         &cover_[index_of(patch.x0, patch.y0 + y)], &flocks_[index_of(patch.x0, patch.y0 + y)],
                          behind.depth.row(row) + patch.x0, is_within ? first : 0, is_within ? last : 0});
     }
 }
@@ -187,7 +201,7 @@ void CoverTile::lay(const SplatPerson& person, const Patch& patch, const Backdro
 void CoverTile::resolve(const BackdropPicture& behind, Plane<std::uint32_t>& out) {
     const auto resolve_row = HWY_DYNAMIC_DISPATCH(ResolveRow);
     for (int y = tile_.y0; y < tile_.y1; ++y)
-        resolve_row(cover_at(tile_.x0, y), behind.color.row(y) + tile_.x0,
+        resolve_row(&cover_[index_of(tile_.x0, y)], behind.color.row(y) + tile_.x0,
                     out.row(y) + tile_.x0, tile_.x1 - tile_.x0);
 }
 

@@ -14,6 +14,13 @@ struct Cover {
     std::uint16_t red, green, blue, share;
 };
 
+// People beside one another, who so share a pixel instead of hiding one another: how much of it was open before them,
+// and the depth of the first of them (SplatPerson::depth_code).
+struct Flock {
+    std::uint16_t open = pixel_full, depth = 0;
+    std::uint16_t padding[2] = {};
+};
+
 // One a thread: everything of a tile that isn't in the picture yet.
 class CoverTile {
 public:
@@ -31,12 +38,13 @@ public:
 private:
     // A pixel around the tile, and a whole group of cells to the right, take what is laid beyond it.
     static constexpr int stride = tile_side + 2 * group_cells;
-    Cover* cover_at(int x, int y) {
-        return &cover_[static_cast<std::size_t>(y - tile_.y0 + 1) * stride + (x - tile_.x0 + group_cells)];
+    std::size_t index_of(int x, int y) const {
+        return static_cast<std::size_t>(y - tile_.y0 + 1) * stride + (x - tile_.x0 + group_cells);
     }
 
     Tile tile_;
     std::vector<Cover> cover_;
+    std::vector<Flock> flocks_;
 };
 
 }  // namespace render::native

@@ -14,7 +14,7 @@ constexpr float unit = 32767.0f;
 // Normals are stored as 127 = 1 and read as 32512 = 1.
 constexpr float normal_unit = 32767.0f / 32512.0f;
 // Sums over so few points depend on which they are: they are made to cover what the silhouette does, one by one.
-constexpr std::uint32_t longest_summed_prefix = 64;
+constexpr std::uint32_t longest_summed_prefix = 128;
 
 // To the nearest; the offset keeps what is cut off positive.
 std::int16_t fixed(float value, float one = unit) {
@@ -34,7 +34,7 @@ struct Turn {
 }  // namespace
 
 PointPeople::PointPeople(std::span<const figures::Figure> figures, const scene::Light& light)
-    : figures_(figures.begin(), figures.end()), models_(figures.size()), to_sun_(light.to_sun) {
+    : figures_(figures.begin(), figures.end()), kinds_(figures.size()), to_sun_(light.to_sun) {
     constexpr float one = 16384.0f;
     light_.level = fixed(0.5f * (light.from_below + light.from_above), one);
     light_.slope = fixed(0.5f * normal_unit * (light.from_above - light.from_below), one);
@@ -43,8 +43,7 @@ PointPeople::PointPeople(std::span<const figures::Figure> figures, const scene::
 
 void PointPeople::prepare(const View& view, double splat_size, std::span<const Person* const> people) {
     for (const Person* person : people)
-        if (!models_[person->character])
-            models_[person->character] = std::make_unique<SplatModel>(figures_[person->character]);
+        if (!kinds_[person->character]) make_kind(person->character);
     const float cell = std::max(1.0f, static_cast<float>(splat_size));
     people_.resize(people.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, people.size(), 256), [&](const auto& range) {
@@ -52,14 +51,70 @@ void PointPeople::prepare(const View& view, double splat_size, std::span<const P
     });
 }
 
+void PointPeople::make_kind(std::uint32_t character) {
+    kinds_[character] = std::make_unique<Kind>(figures_[character]);
+    Gains gains;
+    gains.measure([&](float cells, float points, int trial) { return draw_alone(character, cells, points, trial); },
+                  static_cast<float>(kinds_[character]->model.points()));
+    kinds_[character]->gains = gains;
+}
+
+// In a pose, from a direction and with a fraction of a pixel that the trial's number chooses.
+Gains::Trial PointPeople::draw_alone(std::uint32_t character, float cells, float points, int trial) const {
+    const motion::PoseTable& poses = *figures_[character].poses;
+    const auto chance = [&](float step) { return std::fmod(step * static_cast<float>(trial + 1), 1.0f); };
+    const float yaw = 6.2831853f * chance(0.618034f), height = 1.6f * chance(0.754878f) - 0.6f;
+    // Far away, on a screen on which a unit of the model is as large as it takes.
+    constexpr float away = 100.0f;
+    const glm::vec3 target = poses.box.center();
+    scene::CameraPose camera;
+    camera.target = target;
+    camera.position = target + away * glm::length(poses.box.size()) *
+                                   glm::normalize(glm::vec3(chance(0.569840f) - 0.5f, height, 1.0f));
+    constexpr int side = largest_patch_side - 4;
+    Person person{};
+    person.character = character;
+    person.pose = static_cast<std::uint32_t>(chance(0.381966f) * static_cast<float>(poses.pose_count));
+    person.count = static_cast<std::uint32_t>(std::ceil(points));
+    person.last_share = points - static_cast<float>(person.count - 1);
+    person.instance.scale = 1.0f;
+    person.instance.sin_yaw = fixed(std::sin(yaw));
+    person.instance.cos_yaw = fixed(std::cos(yaw));
+    View view = make_view(camera, side, side);
+    person.instance.position = view.relative(glm::vec3(0.0f));
+    // A first look tells how large the silhouette is; the field of view follows.
+    const SplatPerson first = ready(view, person, 1.0f);
+    camera.fov_y = 2.0 * std::atan(view.tan_half_y * std::sqrt(first.silhouette / cells));
+    view = make_view(camera, side, side);
+    // Another place within the pixel.
+    const float pixel = 2.0f * view.tan_half_y * first.depth / side;
+    person.instance.position += pixel * (chance(0.414214f) * view.right + chance(0.732051f) * view.up);
+    const SplatPerson drawn = ready(view, person, 1.0f);
+
+    std::vector<std::int16_t> lanes(std::size_t{8} * largest_patch_side * largest_patch_side);
+    std::vector<std::uint64_t> used(largest_patch_side);
+    Patch patch;
+    patch.cells = lanes.data();
+    patch.used = used.data();
+    patch.x0 = patch.y0 = -2;
+    patch.width = patch.height = patch.stride = largest_patch_side;
+    splat(drawn, light_, patch);
+    Gains::Trial out;
+    out.silhouette = static_cast<double>(drawn.silhouette);
+    for (std::size_t cell = 0; cell < lanes.size(); cell += 8)
+        if (lanes[cell + 3] > 0) out.coverage.push_back(static_cast<float>(lanes[cell + 3]) / cell_full);
+    return out;
+}
+
 SplatPerson PointPeople::ready(const View& view, const Person& person, float cell) const {
     const Instance& instance = person.instance;
-    const SplatModel& model = *models_[person.character];
+    const SplatModel& model = kinds_[person.character]->model;
     const motion::Bounds& box = figures_[person.character].poses->box;
     const Turn turn{static_cast<float>(instance.sin_yaw) / unit, static_cast<float>(instance.cos_yaw) / unit};
     SplatPerson out;
     out.positions = model.positions(person.pose);
     out.normals = model.normals(person.pose);
+    out.facets = model.facets(person.pose);
     out.count = static_cast<int>(person.count);
     out.last_share = fixed(person.last_share);
 
@@ -71,6 +126,10 @@ SplatPerson PointPeople::ready(const View& view, const Person& person, float cel
     out.depth = std::max(view.depth(middle), near_plane);
     out.reach = glm::length(half);
     out.nearness = fixed(out.reach / out.depth);
+    constexpr float codes_per_metre = 16.0f;  // they repeat after 4 km, where nobody is a body's depth apart
+    out.depth_code = static_cast<std::int16_t>(static_cast<std::int64_t>(out.depth * codes_per_metre));
+    static const float TH = getenv("TH") ? (float)atof(getenv("TH")) : 0.3f;
+    out.thickness = static_cast<std::int16_t>(std::min(TH * out.reach * codes_per_metre, 32767.0f));
     const float cells_per_metre = view.pixels_per_metre(out.depth) / cell;
     constexpr float steps = 1 << cell_bits;
     const glm::vec2 from_center = cells_per_metre * glm::vec2(glm::dot(view.right, middle), -glm::dot(view.up, middle));
@@ -117,6 +176,9 @@ SplatPerson PointPeople::ready(const View& view, const Person& person, float cel
     out.two_sided = out.count <= longest_two_sided_prefix;
 
     const float samples = static_cast<float>(person.count - 1) + person.last_share;
+    const SplatModel::Blend shares = model.shares(samples);
+    out.shares = {shares.near, shares.far};
+    out.to_far = fixed(shares.to_far);
     const float cells_per_unit = cells_per_metre * instance.scale;
     const Between between = between_nodes(to_eye);
     float silhouette = 0, summed = 0;
@@ -127,13 +189,15 @@ SplatPerson PointPeople::ready(const View& view, const Person& person, float cel
         summed += between.share[i] * model.summed(person.pose, between.node[i]);
     }
     const float cells = cells_per_unit * cells_per_unit;
-    out.total = person.count <= longest_summed_prefix ? silhouette * cells : 0.0f;
+    out.silhouette = silhouette * cells;
+    const float gain = kinds_[person.character]->gains.at(out.silhouette, samples);
+    out.total = person.count <= longest_summed_prefix ? gain * out.silhouette : 0.0f;
     const float covers = summed > 0.0f ? silhouette / summed : 1.0f;
-    out.area_each = normal_unit * covers * model.area() * cells / samples;
+    out.area_each = gain * covers * model.area() * cells / samples;
 
     const bool is_mean = out.count <= longest_mean_prefix;
     out.colors = is_mean ? model.mean_colors(out.count) : model.colors();
-    out.shares = is_mean ? model.mean_shares(out.count) : nullptr;
+    out.slot_shares = is_mean ? model.mean_shares(out.count) : nullptr;
     out.slots = model.slots();
     for (int channel = 0; channel < 3; ++channel) {
         out.palette[channel] = {};

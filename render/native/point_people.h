@@ -7,6 +7,7 @@
 
 #include "figures/figure.h"
 #include "render/frame.h"
+#include "render/native/gains.h"
 #include "render/native/splat.h"
 #include "render/native/splat_model.h"
 #include "scene/light.h"
@@ -25,10 +26,19 @@ public:
     const SplatLight& light() const { return light_; }
 
 private:
+    // A character's model, and what its points' areas are multiplied by.
+    struct Kind {
+        explicit Kind(const figures::Figure& figure) : model(figure) {}
+        SplatModel model;
+        Gains gains;
+    };
+
+    void make_kind(std::uint32_t character);
+    Gains::Trial draw_alone(std::uint32_t character, float cells, float points, int trial) const;
     SplatPerson ready(const View& view, const Person& person, float cell) const;
 
     std::vector<figures::Figure> figures_;
-    std::vector<std::unique_ptr<SplatModel>> models_;  // by character; null: not needed yet
+    std::vector<std::unique_ptr<Kind>> kinds_;  // by character; null: not needed yet
     glm::vec3 to_sun_;
     SplatLight light_;
     std::vector<SplatPerson> people_;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "render/native/facets.h"
+
 namespace render::native {
 
 namespace {
@@ -15,16 +17,16 @@ constexpr float nothing = -std::numeric_limits<float>::infinity();
 
 }  // namespace
 
-SelfOcclusion::SelfOcclusion(const figures::Figure& figure, int pose, int points)
-    : figure_(figure), points_(points), double_sided_(figure.mesh->double_sided()), depth_(side * side) {
+SelfOcclusion::SelfOcclusion(const figures::Figure& figure, int pose, std::span<const float> shares)
+    : figure_(figure), points_(static_cast<int>(shares.size())), double_sided_(figure.mesh->double_sided()), depth_(side * side) {
     const motion::PoseTable& poses = *figure.poses;
     for (int i = 0; i < poses.vertex_count; ++i)
         vertices_.push_back(motion::unpack_position(
             poses.vertices[static_cast<std::size_t>(pose) * poses.vertex_count + i], poses.box));
-    for (int i = 0; i < points; ++i) {
+    for (int i = 0; i < points_; ++i) {
         const motion::PosedVertex& point = poses.points[static_cast<std::size_t>(pose) * poses.point_count + i];
         positions_.push_back(motion::unpack_position(point, poses.box));
-        normals_.push_back(motion::unpack_normal(point));
+        facets_.push_back(shares[i] * facet(figure, pose, i));
     }
     seen_.resize(vertices_.size());
 }
@@ -41,7 +43,7 @@ SelfOcclusion::Seen SelfOcclusion::look_from(glm::vec3 direction, std::span<std:
     seen.silhouette = cells / (cells_per_unit_ * cells_per_unit_);
     std::ranges::fill(visible, 0u);
     for (int i = 0; i < points_; ++i) {
-        float facing = glm::dot(normals_[i], direction);
+        float facing = glm::dot(facets_[i], direction);
         if (double_sided_) facing = std::abs(facing);
         if (facing <= 0.0f) continue;
         const glm::vec3 p = positions_[i];

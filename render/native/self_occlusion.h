@@ -12,12 +12,12 @@ namespace render::native {
 
 class SelfOcclusion {
 public:
-    // Of the first `points` points of a pose. The figure must outlive it.
-    SelfOcclusion(const figures::Figure& figure, int pose, int points);
+    // Of a pose; a share of the surface for each point (facets.h). The figure must outlive it.
+    SelfOcclusion(const figures::Figure& figure, int pose, std::span<const float> shares);
 
     struct Seen {
         float silhouette = 0;  // [model units^2] area
-        float facing = 0;      // sum over the visible points of the cosine between their normal and the direction
+        float facing = 0;      // sum over the visible points of their facets as they are seen, times their shares
     };
     // `direction`: unit, from the body towards the eye. Sets a bit for each point that is seen, 32 a word.
     Seen look_from(glm::vec3 direction, std::span<std::uint32_t> visible);
@@ -30,7 +30,8 @@ private:
     const figures::Figure& figure_;
     int points_;
     bool double_sided_;
-    std::vector<glm::vec3> vertices_, positions_, normals_;  // [model units]; of points: positions and normals
+    std::vector<glm::vec3> vertices_;              // [model units]
+    std::vector<glm::vec3> positions_, facets_;    // of the points; facets times shares
     std::vector<glm::vec3> seen_;                            // vertices on the screen [cells], and height towards the eye
     std::vector<float> depth_;                               // of each cell: the height nearest to the eye
     float cells_per_unit_ = 0;

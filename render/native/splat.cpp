@@ -30,11 +30,11 @@ Vector dot(const Vector* v, const std::array<std::int16_t, 3>& axis) {
     return hn::Add(hn::Add(times(v[0], all(axis[0])), times(v[1], all(axis[1]))), times(v[2], all(axis[2])));
 }
 
-// 127 = 1 becomes 32512 = 1; the axes that they are multiplied by make up for it.
-void load_normals(const std::int8_t* from, Vector* normal) {
+// 127 becomes 32512; what they are multiplied by makes up for it.
+void load_directions(const std::int8_t* from, Vector* direction) {
     const hn::Rebind<std::int8_t, Lanes> bytes;
     for (int axis = 0; axis < 3; ++axis)
-        normal[axis] = hn::ShiftLeft<8>(hn::PromoteTo(lanes, hn::LoadU(bytes, from + axis * chunk_points)));
+        direction[axis] = hn::ShiftLeft<8>(hn::PromoteTo(lanes, hn::LoadU(bytes, from + axis * chunk_points)));
 }
 
 // How much of each point is seen from the eye, were it to face it.
@@ -47,29 +47,32 @@ Vector seen(const SplatPerson& person, int chunk, int lane) {
     return sum;
 }
 
-// The share of its area that each point shows.
-Vector shown(const SplatPerson& person, const Vector* normal, int chunk, int lane) {
-    const Vector facing = dot(normal, person.to_eye);
-    const Vector index = hn::Add(hn::Iota(lanes, static_cast<std::int16_t>(chunk * chunk_points + lane)),
-                                 hn::Zero(lanes));
-    const Vector last = all(static_cast<std::int16_t>(person.count - 1));
+// What each point shows of its area; a quarter of it, as facets and shares go up to 2.
+Vector shown(const SplatPerson& person, int chunk, int lane) {
+    Vector facet[3];
+    load_directions(person.facets + chunk * 3 * chunk_points + lane, facet);
+    const Vector facing = dot(facet, person.to_eye);
+    const Vector near = hn::Load(lanes, person.shares[0] + chunk * chunk_points + lane);
+    const Vector far = hn::Load(lanes, person.shares[1] + chunk * chunk_points + lane);
+    const Vector share = hn::Add(near, times(hn::Sub(far, near), all(person.to_far)));
     Vector part = person.two_sided ? hn::Abs(facing)
                                    : times(hn::Max(facing, hn::Zero(lanes)), seen(person, chunk, lane));
+    part = times(part, share);
+    const Vector index = hn::Iota(lanes, static_cast<std::int16_t>(chunk * chunk_points + lane));
+    const Vector last = all(static_cast<std::int16_t>(person.count - 1));
     part = hn::IfThenElse(hn::Eq(index, last), times(part, all(person.last_share)), part);
     return hn::IfThenZeroElse(hn::Gt(index, last), part);
 }
 
 int chunks_of(const SplatPerson& person) { return (person.count + chunk_points - 1) / chunk_points; }
 
-// What all points show together, in areas of one.
+// What all points show together, in quarters of areas of one.
 float sum_shown(const SplatPerson& person) {
     const hn::RepartitionToWide<Lanes> wide;
     auto sum = hn::Zero(wide);
     for (int chunk = 0; chunk < chunks_of(person); ++chunk) {
         for (int lane = 0; lane < chunk_points; lane += static_cast<int>(hn::Lanes(lanes))) {
-            Vector normal[3];
-            load_normals(person.normals + chunk * 3 * chunk_points + lane, normal);
-            const Vector part = shown(person, normal, chunk, lane);
+            const Vector part = shown(person, chunk, lane);
             sum = hn::Add(sum, hn::Add(hn::PromoteTo(wide, hn::LowerHalf(part)),
                                        hn::PromoteTo(wide, hn::UpperHalf(hn::Half<Lanes>(), part))));
         }
@@ -78,7 +81,7 @@ float sum_shown(const SplatPerson& person) {
 }
 
 std::int16_t area_of(const SplatPerson& person) {
-    float each = person.area_each;
+    float each = 4.0f * person.area_each;
     if (person.total > 0.0f) {
         const float sum = sum_shown(person);
         each = sum > 0.0f ? person.total / sum : 0.0f;
@@ -98,11 +101,11 @@ struct alignas(64) Staged {
 
 // Linear colour of the surface, 32767 = 1.
 Vector albedo(const SplatPerson& person, int channel, int chunk, int lane, Vector index_bytes) {
-    if (person.shares) {
+    if (person.slot_shares) {
         const Vector own = hn::Load(lanes, person.colors + channel * chunk_points + lane);
         Vector tint = hn::Zero(lanes);
         for (int slot = 0; slot <= model::slot_count; ++slot)
-            tint = hn::Add(tint, times(hn::Load(lanes, person.shares + slot * chunk_points + lane),
+            tint = hn::Add(tint, times(hn::Load(lanes, person.slot_shares + slot * chunk_points + lane),
                                        all(person.palette[channel][slot])));
         return times(own, tint);
     }
@@ -120,11 +123,10 @@ struct Place {
 void stage(const SplatPerson& person, const SplatLight& light, const Patch& patch, Place place, std::int16_t area,
            int chunk, int lane, Staged& out) {
     const std::int16_t* from = person.positions + chunk * 3 * chunk_points + lane;
-    Vector position[3], normal[3];
+    Vector position[3];
     for (int axis = 0; axis < 3; ++axis) position[axis] = hn::Load(lanes, from + axis * chunk_points);
-    load_normals(person.normals + chunk * 3 * chunk_points + lane, normal);
 
-    const Vector cover = times(shown(person, normal, chunk, lane), all(area));
+    const Vector cover = times(shown(person, chunk, lane), all(area));
     const Vector back = dot(position, person.axes[2]);
     // 1 / (1 + t) - 1 = -t + t^2 - t^3 ...: what is farther back is smaller.
     const Vector t = times(back, all(person.nearness));
@@ -147,6 +149,8 @@ void stage(const SplatPerson& person, const SplatLight& light, const Patch& patc
     out.used |= mask << lane;
     if (mask == 0) return;
 
+    Vector normal[3];
+    load_directions(person.normals + chunk * 3 * chunk_points + lane, normal);
     const Vector sunlit = hn::Max(dot(normal, person.to_sun), hn::Zero(lanes));
     const Vector index = hn::Load(hn::Rebind<std::int16_t, Lanes>(),
                                   reinterpret_cast<const std::int16_t*>(person.slots) + chunk * chunk_points + lane);

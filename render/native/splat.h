@@ -15,18 +15,21 @@ namespace render::native {
 // Fixed-point units.
 inline constexpr int cell_bits = 7;                   // positions: 128 steps a cell
 inline constexpr std::int16_t cell_full = 8192;       // a cell that is covered once; up to 4 times fit
-inline constexpr std::uint16_t pixel_full = 32767;    // a pixel that is covered
+inline constexpr std::uint16_t pixel_full = 16384;    // a pixel that is covered once; up to twice fits
 
 // One person, as their points are drawn. 16-bit fixed point: 32767 = 1 where nothing else is said.
 struct SplatPerson {
     // Of the pose (splat_model.h).
     const std::int16_t* positions;
     const std::int8_t* normals;
+    const std::int8_t* facets;
     std::array<const std::uint32_t*, 4> visible;
     std::array<std::int16_t, 4> visible_share;
+    std::array<const std::int16_t*, 2> shares;  // the near ones and the far ones
+    std::int16_t to_far;
     const std::int16_t* colors;
-    const std::uint16_t* slots;   // of long prefixes
-    const std::int16_t* shares;   // of short ones, else null
+    const std::uint16_t* slots;        // of long prefixes
+    const std::int16_t* slot_shares;  // of short ones, else null
     bool two_sided;
     // Screen x, y [1/128 cell] and the way back from the middle [of `reach`], of a position of 32768, by axis.
     std::array<std::array<std::int16_t, 3>, 3> axes;
@@ -37,9 +40,12 @@ struct SplatPerson {
     std::array<std::array<std::int16_t, 8>, 3> palette;  // linear, by channel, of slots 0 to slot_count
     int count;                           // points, the last of which counts for `last_share`
     std::int16_t last_share;
-    float total;        // [cells] that the person covers; 0: as many as `area_each` gives
-    float area_each;    // [cells] of a point that faces the eye
+    float silhouette;   // [cells]
+    float total;        // [cells] that the points add up to; 0: to what `area_each` gives
+    float area_each;    // [cells] of a point that faces the eye, with a facet and a share of 1
     float depth, reach;  // [m] view depth of the middle; how far a point may be from it
+    // The depth again, and how deep a body is: who is no farther apart than this can't be in front of one another.
+    std::int16_t depth_code, thickness;
     std::int16_t x0, y0, x1, y1;  // [cells] what they may touch
     float cell;                   // [px] side of a cell
 };

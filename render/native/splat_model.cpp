@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pointsample/prefix_ladder.h"
 #include "pointsample/prefix_look.h"
+#include "render/native/facets.h"
 #include "render/native/self_occlusion.h"
 
 namespace render::native {
@@ -27,6 +29,9 @@ std::uint16_t table_index(model::Slot slot) {
     return static_cast<std::uint16_t>((2 * slot + 1) << 8 | 2 * slot);
 }
 
+constexpr float facet_unit = 64.0f;
+constexpr float share_unit = 16384.0f;
+
 // So many triangles and points are looked at, over all directions and key poses.
 constexpr double look_budget = 1.5e8;
 
@@ -40,6 +45,7 @@ SplatModel::SplatModel(const figures::Figure& figure)
     if (points_ == 0) return;
     pack_poses(figure);
     pack_looks(figure);
+    pack_shares(figure);
     choose_keys(figure);
     look_around(figure);
 }
@@ -49,6 +55,7 @@ void SplatModel::pack_poses(const figures::Figure& figure) {
     const std::size_t pose_size = std::size_t{3} * chunk_points * chunks_;
     positions_.resize(pose_size * poses.pose_count);
     normals_.resize(pose_size * poses.pose_count);
+    facets_.resize(pose_size * poses.pose_count);
     extents_.resize(static_cast<std::size_t>(poses.pose_count));
     tbb::parallel_for(0, poses.pose_count, [&](int pose) {
         Extent extent;
@@ -58,13 +65,15 @@ void SplatModel::pack_poses(const figures::Figure& figure) {
             const int point = std::min(i, points_ - 1);  // the last chunk is filled up
             const motion::PosedVertex& posed =
                 poses.points[static_cast<std::size_t>(pose) * poses.point_count + point];
-            const glm::vec3 normal = motion::unpack_normal(posed);
+            const glm::vec3 normal = motion::unpack_normal(posed), piece = facet(figure, pose, point);
             const std::array<std::uint16_t, 3> packed{posed.x, posed.y, posed.z};
             const std::size_t at = pose_size * pose + (i / chunk_points) * 3 * chunk_points + i % chunk_points;
             for (int axis = 0; axis < 3; ++axis) {
                 const auto position = static_cast<std::int16_t>(packed[axis] - 32768);
                 positions_[at + axis * chunk_points] = position;
                 normals_[at + axis * chunk_points] = static_cast<std::int8_t>(std::lround(127.0f * normal[axis]));
+                facets_[at + axis * chunk_points] = static_cast<std::int8_t>(
+                    std::lround(std::clamp(facet_unit * piece[axis], -127.0f, 127.0f)));
                 extent.min[axis] = std::min(extent.min[axis], position);
                 extent.max[axis] = std::max(extent.max[axis], position);
             }
@@ -104,6 +113,33 @@ void SplatModel::pack_looks(const figures::Figure& figure) {
     }
 }
 
+void SplatModel::pack_shares(const figures::Figure& figure) {
+    const Shares shares(*figure.points);
+    for (std::uint32_t rung = 1; static_cast<int>(pointsample::points_of_rung(rung)) < points_; ++rung)
+        rungs_.push_back(static_cast<int>(pointsample::points_of_rung(rung)));
+    rungs_.push_back(points_);
+    const std::size_t row = std::size_t{chunk_points} * chunks_;
+    shares_.assign(row * rungs_.size(), 0);
+    tbb::parallel_for(std::size_t{0}, rungs_.size(), [&](std::size_t rung) {
+        const std::vector<float> of_rung = shares.of_first(static_cast<std::size_t>(rungs_[rung]));
+        for (std::size_t i = 0; i < of_rung.size(); ++i)
+            shares_[row * rung + i] =
+                static_cast<std::int16_t>(std::lround(std::min(of_rung[i] * share_unit, 32767.0f)));
+    });
+    for (std::size_t rung = 0; rung + 1 < rungs_.size(); ++rung)
+        for (int i = rungs_[rung]; i < rungs_[rung + 1]; ++i) shares_[row * rung + i] = shares_[row * (rung + 1) + i];
+}
+
+SplatModel::Blend SplatModel::shares(float count) const {
+    const std::size_t row = std::size_t{chunk_points} * chunks_;
+    std::size_t rung = 0;
+    while (rung + 1 < rungs_.size() && static_cast<float>(rungs_[rung + 1]) <= count) ++rung;
+    const std::int16_t* near = &shares_[row * rung];
+    if (rung + 1 == rungs_.size() || count <= static_cast<float>(rungs_[rung])) return {near, near, 0.0f};
+    const float step = static_cast<float>(rungs_[rung + 1] - rungs_[rung]);
+    return {near, near + row, (count - static_cast<float>(rungs_[rung])) / step};
+}
+
 // As many as the budget allows, spread evenly over each clip.
 void SplatModel::choose_keys(const figures::Figure& figure) {
     const motion::PoseTable& poses = *figure.poses;
@@ -127,8 +163,11 @@ void SplatModel::look_around(const figures::Figure& figure) {
     silhouettes_.resize(looks);
     summed_.resize(looks);
     const float area_each = area_ / static_cast<float>(points_);
+    std::vector<float> own(static_cast<std::size_t>(points_));
+    for (int i = 0; i < points_; ++i)
+        own[i] = static_cast<float>(shares_[std::size_t{chunk_points} * chunks_ * (rungs_.size() - 1) + i]) / share_unit;
     tbb::parallel_for(std::size_t{0}, key_poses_.size(), [&](std::size_t key) {
-        SelfOcclusion body(figure, static_cast<int>(key_poses_[key]), points_);
+        SelfOcclusion body(figure, static_cast<int>(key_poses_[key]), own);
         for (int node = 0; node < direction_nodes; ++node) {
             const std::size_t look = key * direction_nodes + node;
             const SelfOcclusion::Seen seen =

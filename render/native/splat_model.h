@@ -34,9 +34,11 @@ public:
     int chunks() const { return chunks_; }
     bool double_sided() const { return double_sided_; }
 
-    // Positions of a pose, -32768 to 32767 over the character's box, and normals, 127 = 1: [chunk][axis][chunk_points].
+    // Of a pose, [chunk][axis][chunk_points]: positions, -32768 to 32767 over the character's box; normals, 127 = 1;
+    // and facets (facets.h), 64 = 1.
     const std::int16_t* positions(std::uint32_t pose) const { return &positions_[pose * chunks_ * 3 * chunk_points]; }
     const std::int8_t* normals(std::uint32_t pose) const { return &normals_[pose * chunks_ * 3 * chunk_points]; }
+    const std::int8_t* facets(std::uint32_t pose) const { return &facets_[pose * chunks_ * 3 * chunk_points]; }
     // What a pose's points span, in the positions' own units.
     struct Extent {
         std::array<std::int16_t, 3> min, max;
@@ -53,9 +55,18 @@ public:
         return &mean_shares_[prefix * (1 + model::slot_count) * chunk_points];
     }
 
+    // The shares of the surface that points stand for when so many are drawn: `near` and, by the fraction, `far` ones,
+    // 16384 = 1: [chunk][chunk_points].
+    struct Blend {
+        const std::int16_t* near;
+        const std::int16_t* far;
+        float to_far;  // [0, 1]
+    };
+    Blend shares(float count) const;
+
     // From one direction, in a pose near to the one asked for: which points nothing of the body hides, a bit each; the
-    // silhouette's area [model units^2]; and the same as the sum over the visible points says it, each of area() /
-    // points() times the cosine to its normal.
+    // silhouette's area [model units^2]; and the same as the sum over the visible points says it, if together they were
+    // of area().
     const std::uint32_t* visible(std::uint32_t pose, int node) const {
         return &visible_[(std::size_t{key_of_[pose]} * direction_nodes + node) * chunks_];
     }
@@ -70,6 +81,7 @@ public:
 private:
     void pack_poses(const figures::Figure& figure);
     void pack_looks(const figures::Figure& figure);
+    void pack_shares(const figures::Figure& figure);
     void choose_keys(const figures::Figure& figure);
     void look_around(const figures::Figure& figure);
 
@@ -77,7 +89,9 @@ private:
     bool double_sided_ = false;
     float area_ = 0;
     Array<std::int16_t> positions_, colors_, mean_colors_, mean_shares_;
-    Array<std::int8_t> normals_;
+    Array<std::int16_t> shares_;  // a rung of `rungs_` each, and in the place of those it lacks the next rung's
+    std::vector<int> rungs_;      // numbers of points, rising to points_
+    Array<std::int8_t> normals_, facets_;
     Array<std::uint16_t> slots_;
     std::vector<Extent> extents_;
     std::vector<std::uint32_t> key_of_;    // a pose's key pose, as a number of its own

@@ -1,0 +1,74 @@
+#include "render/native/gains.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace render::native {
+
+namespace {
+
+constexpr int trials = 96;
+constexpr float most_gain = 1.5f;
+
+double covered(const std::vector<Gains::Trial>& all, double gain) {
+    double sum = 0;
+    for (const Gains::Trial& trial : all)
+        for (const float coverage : trial.coverage) sum += std::min(1.0, gain * static_cast<double>(coverage));
+    return sum;
+}
+
+// By bisection: what is covered rises with it.
+float solve(const std::vector<Gains::Trial>& all) {
+    double silhouettes = 0;
+    for (const Gains::Trial& trial : all) silhouettes += trial.silhouette;
+    double low = 1.0, high = most_gain;
+    for (int i = 0; i < 16; ++i) {
+        const double middle = 0.5 * (low + high);
+        (covered(all, middle) < silhouettes ? low : high) = middle;
+    }
+    return static_cast<float>(high);
+}
+
+// Where `value` is among `count` octaves: the one below, and the share of the next.
+struct Between {
+    int below;
+    float share;
+};
+
+Between among_octaves(float value, float first, int count) {
+    const float octave = std::clamp(std::log2(value / first), 0.0f, static_cast<float>(count - 1) - 1e-4f);
+    const int below = static_cast<int>(octave);
+    return {below, octave - static_cast<float>(below)};
+}
+
+}  // namespace
+
+void Gains::measure(const std::function<Trial(float, float, int)>& draw, float most_points) {
+    for (int size = 0; size < sizes; ++size) {
+        const float cells = first_size * std::exp2(static_cast<float>(size));
+        for (int density = 0; density < densities; ++density) {
+            const float points = first_density * std::exp2(static_cast<float>(density)) * cells;
+            if (density > 0 && points > most_points) {
+                gains_[size][density] = gains_[size][density - 1];  // nobody is drawn so
+                continue;
+            }
+            std::vector<Trial> all;
+            for (int trial = 0; trial < trials; ++trial)
+                all.push_back(draw(cells, std::clamp(points, 1.0f, most_points), trial));
+            gains_[size][density] = solve(all);
+        }
+    }
+    is_measured_ = true;
+}
+
+float Gains::at(float cells, float points) const {
+    if (!is_measured_) return 1.0f;
+    const Between size = among_octaves(cells, first_size, sizes);
+    const Between density = among_octaves(points / cells, first_density, densities);
+    const auto along = [&](int row) {
+        return std::lerp(gains_[row][density.below], gains_[row][density.below + 1], density.share);
+    };
+    return std::lerp(along(size.below), along(size.below + 1), size.share);
+}
+
+}  // namespace render::native
