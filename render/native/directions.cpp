@@ -43,7 +43,9 @@ Between between_nodes(glm::vec3 direction) {
     const float u = around - static_cast<float>(a), v = ring - static_cast<float>(r);
     const int next = (a + 1) % ring_nodes;
     return {{r * ring_nodes + a, r * ring_nodes + next, (r + 1) * ring_nodes + a, (r + 1) * ring_nodes + next},
-            {(1.0f - u) * (1.0f - v), u * (1.0f - v), (1.0f - u) * v, u * v}};
+            {(1.0f - u) * (1.0f - v), u * (1.0f - v), (1.0f - u) * v, u * v},
+            u,
+            v};
 }
 
 }  // namespace render::native

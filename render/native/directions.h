@@ -18,6 +18,7 @@ glm::vec3 direction_of(int node);
 struct Between {
     std::array<int, 4> node;
     std::array<float, 4> share;
+    float around, up;  // [0, 1] from the first node to the second, and to the third
 };
 
 // `direction`: from the body towards the eye, of any length but 0.

@@ -128,8 +128,9 @@ SplatPerson PointPeople::ready(const View& view, const Person& person, float cel
     out.nearness = fixed(out.reach / out.depth);
     constexpr float codes_per_metre = 16.0f;  // they repeat after 4 km, where nobody is a body's depth apart
     out.depth_code = static_cast<std::int16_t>(static_cast<std::int64_t>(out.depth * codes_per_metre));
-    static const float TH = getenv("TH") ? (float)atof(getenv("TH")) : 0.3f;
-    out.thickness = static_cast<std::int16_t>(std::min(TH * out.reach * codes_per_metre, 32767.0f));
+    // About a body's own depth: three quarters of the side of a square as large as its silhouette.
+    const float side = instance.scale * std::sqrt(0.25f * model.area());
+    out.thickness = static_cast<std::int16_t>(std::min(0.75f * side * codes_per_metre, unit));
     const float cells_per_metre = view.pixels_per_metre(out.depth) / cell;
     constexpr float steps = 1 << cell_bits;
     const glm::vec2 from_center = cells_per_metre * glm::vec2(glm::dot(view.right, middle), -glm::dot(view.up, middle));
@@ -181,18 +182,20 @@ SplatPerson PointPeople::ready(const View& view, const Person& person, float cel
     out.to_far = fixed(shares.to_far);
     const float cells_per_unit = cells_per_metre * instance.scale;
     const Between between = between_nodes(to_eye);
-    float silhouette = 0, summed = 0;
+    const float silhouette = model.silhouette(person.pose, between);
+    float interpolated = 0, summed = 0;
     for (int i = 0; i < 4; ++i) {
         out.visible[i] = model.visible(person.pose, between.node[i]);
         out.visible_share[i] = fixed(between.share[i], unit - 4.0f);  // rounded up, four still sum to at most one
-        silhouette += between.share[i] * model.silhouette(person.pose, between.node[i]);
+        interpolated += between.share[i] * model.silhouette(person.pose, between.node[i]);
         summed += between.share[i] * model.summed(person.pose, between.node[i]);
     }
-    const float cells = cells_per_unit * cells_per_unit;
+    // Off the screen's middle a silhouette's image is larger, as it is cast aslant.
+    const float cells = cells_per_unit * cells_per_unit * glm::length(middle) / out.depth;
     out.silhouette = silhouette * cells;
     const float gain = kinds_[person.character]->gains.at(out.silhouette, samples);
     out.total = person.count <= longest_summed_prefix ? gain * out.silhouette : 0.0f;
-    const float covers = summed > 0.0f ? silhouette / summed : 1.0f;
+    const float covers = summed > 0.0f ? interpolated / summed : 1.0f;
     out.area_each = gain * covers * model.area() * cells / samples;
 
     const bool is_mean = out.count <= longest_mean_prefix;

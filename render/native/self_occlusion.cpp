@@ -45,12 +45,11 @@ SelfOcclusion::Seen SelfOcclusion::look_from(glm::vec3 direction, std::span<std:
     for (int i = 0; i < points_; ++i) {
         float facing = glm::dot(facets_[i], direction);
         if (double_sided_) facing = std::abs(facing);
-        if (facing <= 0.0f) continue;
         const glm::vec3 p = positions_[i];
         const glm::vec3 at(glm::dot(right_, p), glm::dot(up_, p), glm::dot(towards_, p));
-        if (is_hidden((at - low_) * cells_per_unit_)) continue;
+        if (facing > 0.0f && is_hidden((at - low_) * cells_per_unit_)) continue;
         visible[i / 32] |= 1u << (i % 32);
-        seen.facing += facing;
+        seen.facing += std::max(facing, 0.0f);
     }
     return seen;
 }

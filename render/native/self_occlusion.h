@@ -19,7 +19,8 @@ public:
         float silhouette = 0;  // [model units^2] area
         float facing = 0;      // sum over the visible points of their facets as they are seen, times their shares
     };
-    // `direction`: unit, from the body towards the eye. Sets a bit for each point that is seen, 32 a word.
+    // `direction`: unit, from the body towards the eye. Sets a bit for each point that nothing is in front of, 32 a word;
+    // also for those that face away: seen from a little to the side they may not.
     Seen look_from(glm::vec3 direction, std::span<std::uint32_t> visible);
 
 private:

@@ -176,6 +176,37 @@ void SplatModel::look_around(const figures::Figure& figure) {
             summed_[look] = area_each * seen.facing;
         }
     });
+    find_bends();
+}
+
+void SplatModel::find_bends() {
+    bends_around_.resize(silhouettes_.size());
+    bends_up_.resize(silhouettes_.size());
+    for (std::size_t key = 0; key < key_poses_.size(); ++key) {
+        const float* s = &silhouettes_[key * direction_nodes];
+        for (int node = 0; node < direction_nodes; ++node) {
+            const int ring = node / ring_nodes, first = ring * ring_nodes, at = node - first;
+            const float left = s[first + (at + ring_nodes - 1) % ring_nodes], right = s[first + (at + 1) % ring_nodes];
+            bends_around_[key * direction_nodes + node] = 0.5f * (left - 2.0f * s[node] + right);
+            // Beyond a pole the ring that it came from goes on, on the other side.
+            const int opposite = (at + ring_nodes / 2) % ring_nodes;
+            const float below = ring > 0 ? s[node - ring_nodes] : s[ring_nodes + opposite];
+            const float above = ring + 1 < rings ? s[node + ring_nodes] : s[(rings - 2) * ring_nodes + opposite];
+            bends_up_[key * direction_nodes + node] = 0.5f * (below - 2.0f * s[node] + above);
+        }
+    }
+}
+
+// Between two nodes a silhouette bulges out: a straight line would be up to 5 % short of it.
+float SplatModel::silhouette(std::uint32_t pose, const Between& between) const {
+    const std::size_t first = std::size_t{key_of_[pose]} * direction_nodes;
+    const float around = between.around * (1.0f - between.around), up = between.up * (1.0f - between.up);
+    float sum = 0;
+    for (int i = 0; i < 4; ++i) {
+        const std::size_t node = first + between.node[i];
+        sum += between.share[i] * (silhouettes_[node] - around * bends_around_[node] - up * bends_up_[node]);
+    }
+    return sum;
 }
 
 }  // namespace render::native

@@ -64,12 +64,13 @@ public:
     };
     Blend shares(float count) const;
 
-    // From one direction, in a pose near to the one asked for: which points nothing of the body hides, a bit each; the
+    // From a direction, in a pose near to the one asked for: which points nothing of the body hides, a bit each; the
     // silhouette's area [model units^2]; and the same as the sum over the visible points says it, if together they were
     // of area().
     const std::uint32_t* visible(std::uint32_t pose, int node) const {
         return &visible_[(std::size_t{key_of_[pose]} * direction_nodes + node) * chunks_];
     }
+    float silhouette(std::uint32_t pose, const Between& between) const;
     float silhouette(std::uint32_t pose, int node) const {
         return silhouettes_[std::size_t{key_of_[pose]} * direction_nodes + node];
     }
@@ -84,6 +85,7 @@ private:
     void pack_shares(const figures::Figure& figure);
     void choose_keys(const figures::Figure& figure);
     void look_around(const figures::Figure& figure);
+    void find_bends();
 
     int points_ = 0, chunks_ = 0;
     bool double_sided_ = false;
@@ -98,6 +100,8 @@ private:
     std::vector<std::uint32_t> key_poses_;
     std::vector<std::uint32_t> visible_;   // [key][node][chunk]
     std::vector<float> silhouettes_, summed_;  // [key][node]
+    // Of the silhouettes, half the second differences from node to node: around, and from ring to ring.
+    std::vector<float> bends_around_, bends_up_;
 };
 
 }  // namespace render::native
