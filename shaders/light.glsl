@@ -1,5 +1,5 @@
-// Daylight, for vertex shaders: the sun, and what comes from above and below.
+// Daylight: the sun, and what comes from above and below. Shared with C++.
 vec3 lit(vec3 normal) {
-    vec3 surroundings = mix(Frame.ground_light.rgb, Frame.sky_light.rgb, 0.5 + 0.5 * normal.y);
-    return surroundings + Frame.sun_color.rgb * max(dot(normal, Frame.sun_direction.xyz), 0.0);
+    vec3 surroundings = mix(vec3(Frame.ground_light), vec3(Frame.sky_light), 0.5f + 0.5f * normal.y);
+    return surroundings + vec3(Frame.sun_color) * max(dot(normal, vec3(Frame.sun_direction)), 0.0f);
 }

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "shaders/layout.h"
+#include "render/frame_block.h"
 
 namespace render::gl {
 
@@ -15,7 +15,6 @@ namespace {
 
 static_assert(offsetof(FrameBlock, camera_position) == 64 && offsetof(FrameBlock, splat) == 272 &&
               sizeof(FrameBlock) == 288);
-static_assert(sizeof(FrameBlock::ground_parameters) == sizeof(scene::Ground::parameters));
 static_assert(offsetof(FigureBlock, box_size) == 16 && sizeof(FigureBlock) == 32);
 
 // Set-up must have left no error behind; memory is the one that a user can do something about.
@@ -50,7 +49,7 @@ Renderer::Renderer(const scene::StaticMesh& structure, const scene::Ground& grou
       frame_block_(Buffer::create()),
       instances_(Buffer::create()),
       commands_(Buffer::create()),
-      ground_parameters_(ground.parameters),
+      ground_(ground),
       light_(light) {
     glNamedBufferStorage(frame_block_.name(), sizeof(FrameBlock), nullptr, GL_DYNAMIC_STORAGE_BIT);
     for (const figures::Figure& figure : figures) {
@@ -102,21 +101,8 @@ void Renderer::draw(const Frame& frame) {
 }
 
 void Renderer::upload_frame(const View& view, double splat_size) {
-    FrameBlock frame;
-    frame.clip_from_camera_relative = view.clip_from_camera_relative;
-    frame.camera_position = glm::vec4(glm::vec3(view.position), 0.0f);
-    frame.sun_direction = glm::vec4(light_.to_sun, 0.0f);
-    frame.sun_color = glm::vec4(light_.sun, 0.0f);
-    frame.sky_light = glm::vec4(light_.from_above, 0.0f);
-    frame.ground_light = glm::vec4(light_.from_below, 0.0f);
-    frame.sky_haze = glm::vec4(light_.haze, 0.0f);
-    frame.sky_zenith = glm::vec4(light_.zenith, 0.0f);
-    frame.sky_glare = glm::vec4(light_.glare, 0.0f);
-    frame.view_right = glm::vec4(view.right * view.tan_half_x, 0.0f);
-    frame.view_up = glm::vec4(view.up * view.tan_half_y, 0.0f);
-    frame.view_forward = glm::vec4(view.forward, 0.0f);
-    std::copy(ground_parameters_.begin(), ground_parameters_.end(), frame.ground_parameters);
-    frame.splat = glm::vec4(std::max(1.0f, static_cast<float>(splat_size)), view.pixels_per_metre(1.0f), 0.0f, 0.0f);
+    const FrameBlock frame =
+        make_frame_block(view, ground_, light_, std::max(1.0f, static_cast<float>(splat_size)));
     glNamedBufferSubData(frame_block_.name(), 0, sizeof frame, &frame);
     glBindBufferBase(GL_UNIFORM_BUFFER, Frame_binding, frame_block_.name());
 }

@@ -1,7 +1,6 @@
 // Frames by OpenGL: uploads a scene once, then draws what was selected.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -54,7 +53,7 @@ private:
     std::vector<std::unique_ptr<FigureDrawer>> drawers_;  // by representation
     std::vector<Buffer> figure_blocks_;                   // by character
     Buffer frame_block_, instances_, commands_;
-    std::array<glm::vec4, 2> ground_parameters_;
+    scene::Ground ground_;
     scene::Light light_;
     Renderbuffer color_, depth_;
     Framebuffer target_;

@@ -1,0 +1,10 @@
+in vec2 ground;  // world x, z [m]
+out vec4 color;
+
+// What a file of shaders/grounds/ is: the surface's linear colour at world x, z [m].
+vec3 surface_at(vec2 p);
+
+void main() {
+    set_pixel(dFdx(ground), dFdy(ground));
+    color = vec4(sqrt(surface_at(ground) * daylight()), 1.0);
+}
