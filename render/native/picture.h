@@ -31,10 +31,18 @@ private:
 
 // What lies behind the people.
 struct BackdropPicture {
-    int width = 0, height = 0;    // [px]
-    Plane<std::uint32_t> color;   // red, green, blue in bytes 0, 1, 2: the square root of linear light; byte 3 is 255
-    Plane<float> depth;           // near_plane / view depth: 0 is infinitely far, larger is nearer
+    int width = 0, height = 0;   // [px]
+    Plane<std::uint32_t> color;  // red, green, blue in bytes 0, 1, 2: the square root of linear light; byte 3 is 255
+    Plane<float> depth;          // near_plane / view depth: 0 is infinitely far, larger is nearer
+    Plane<float> farthest;       // the least depth of each block of pixels: what is farther is hidden in all of it
 };
+
+// Blocks of block_side x block_side pixels, from the picture's top left corner; what sticks out of the picture counts
+// not.
+inline constexpr int block_side = 8;
+constexpr int blocks_across(int pixels) {
+    return (pixels + block_side - 1) / block_side;
+}
 
 // A part of the picture that one thread draws: pixels [x0, x1) x [y0, y1).
 struct Tile {

@@ -1,0 +1,232 @@
+#include "render/native/triangles_on_screen.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/native/triangles_on_screen.cpp"
+#include <hwy/foreach_target.h>
+// After it, as Highway wants it.
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace render::native::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr float farthest_whole = 1e30f;  // [m] no product with it is infinite
+
+void project(const View& view, const Corners& corners, ScreenCorners& out) {
+    const hn::CappedTag<float, 16> d;
+    const hn::RebindToSigned<decltype(d)> di;
+    const auto set = [&](float value) HWY_ATTR { return hn::Set(d, value); };
+    const glm::mat4& m = view.clip_from_camera_relative;
+    const glm::vec3 camera(view.position);
+    const float half_width = 0.5f * static_cast<float>(view.width),
+                half_height = 0.5f * static_cast<float>(view.height);
+    const auto scale_x = set(half_width * subpixels), scale_y = set(half_height * -subpixels);
+    const auto middle_x = set(half_width * subpixels), middle_y = set(half_height * subpixels);
+    // Rounded inward, so that no corner's subpixels leave the guard band.
+    const auto reach_x = set((half_width + guard_band - 1) / half_width);
+    const auto reach_y = set((half_height + guard_band - 1) / half_height);
+    for (std::size_t i = 0; i < corners.count; i += hn::Lanes(d)) {
+        const auto x = hn::Sub(hn::Load(d, &corners.x[i]), set(camera.x));
+        const auto y = hn::Sub(hn::Load(d, &corners.y[i]), set(camera.y));
+        const auto z = hn::Sub(hn::Load(d, &corners.z[i]), set(camera.z));
+        const auto row = [&](int r) HWY_ATTR {
+            return hn::Add(hn::Add(hn::Mul(x, set(m[0][r])), hn::Mul(y, set(m[1][r]))), hn::Mul(z, set(m[2][r])));
+        };
+        const auto across = row(0), up = row(1), far = row(3);
+        const auto is_between = hn::And(hn::Ge(far, set(near_plane)), hn::Le(far, set(farthest_whole)));
+        const auto is_near_picture =
+            hn::And(hn::Le(hn::Abs(across), hn::Mul(reach_x, far)), hn::Le(hn::Abs(up), hn::Mul(reach_y, far)));
+        const auto is_whole = hn::And(is_between, is_near_picture);
+        const auto one = hn::Div(set(1.0f), hn::IfThenElse(is_whole, far, set(1.0f)));
+        const auto at_x = hn::IfThenElseZero(is_whole, hn::Add(hn::Mul(hn::Mul(across, one), scale_x), middle_x));
+        const auto at_y = hn::IfThenElseZero(is_whole, hn::Add(hn::Mul(hn::Mul(up, one), scale_y), middle_y));
+        hn::Store(hn::NearestInt(at_x), di, &out.x[i]);
+        hn::Store(hn::NearestInt(at_y), di, &out.y[i]);
+        hn::Store(hn::Mul(set(near_plane), one), d, &out.depth[i]);
+        const auto side = [&](auto is_outside, std::int32_t bit)
+                              HWY_ATTR { return hn::IfThenElseZero(hn::RebindMask(di, is_outside), hn::Set(di, bit)); };
+        const auto nearer = hn::Neg(far);
+        auto sides = side(hn::Lt(across, nearer), outside_left);
+        sides = hn::Or(sides, side(hn::Gt(across, far), outside_right));
+        sides = hn::Or(sides, side(hn::Gt(up, far), outside_top));
+        sides = hn::Or(sides, side(hn::Lt(up, nearer), outside_bottom));
+        sides = hn::Or(sides, side(hn::Not(is_whole), clipped));
+        hn::Store(sides, di, &out.sides[i]);
+    }
+}
+
+}  // namespace render::native::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include <algorithm>
+#include <cmath>
+
+namespace render::native {
+
+namespace {
+
+constexpr std::size_t longest_vector = 16;
+
+std::size_t padded(std::size_t count) {
+    return (count + longest_vector - 1) / longest_vector * longest_vector;
+}
+
+struct ScreenCorner {
+    std::int32_t x, y;
+    float depth;
+};
+
+// Whether a row or column of pixels' centres lies in [low, high], both in subpixels.
+bool holds_a_center(std::int32_t low, std::int32_t high, std::int32_t picture_end) {
+    constexpr std::int32_t half = subpixels / 2;
+    const std::int32_t first = std::max((low + half - 1) >> 8, 0), last = std::min((high - half) >> 8, picture_end - 1);
+    return first <= last;
+}
+
+void add_if_seen(const View& view, const ScreenCorner& a, const ScreenCorner& b, const ScreenCorner& c,
+                 std::uint32_t surface, std::vector<ScreenTriangle>& out) {
+    // From b to c turns about a: what faces the camera is counter-clockwise where y is up, so the two change places.
+    const std::int64_t abx = c.x - a.x, aby = c.y - a.y, acx = b.x - a.x, acy = b.y - a.y;
+    const std::int64_t area = abx * acy - aby * acx;
+    if (area <= 0) return;
+    const auto [left, right] = std::minmax({a.x, b.x, c.x});
+    const auto [top, bottom] = std::minmax({a.y, b.y, c.y});
+    if (!holds_a_center(left, right, view.width) || !holds_a_center(top, bottom, view.height)) return;
+    const double per_area = subpixels / static_cast<double>(area);
+    const double to_c = static_cast<double>(c.depth) - a.depth, to_b = static_cast<double>(b.depth) - a.depth;
+    const double depth_x = (to_c * static_cast<double>(acy) - to_b * static_cast<double>(aby)) * per_area;
+    const double depth_y = (to_b * static_cast<double>(abx) - to_c * static_cast<double>(acx)) * per_area;
+    constexpr double pixel = 1.0 / subpixels;
+    const double depth = a.depth + depth_x * (0.5 - pixel * a.x) + depth_y * (0.5 - pixel * a.y);
+    out.push_back(
+        {{a.x, c.x, b.x}, {a.y, c.y, b.y}, surface, std::max({a.depth, b.depth, c.depth}), depth, depth_x, depth_y});
+}
+
+// A corner while it is clipped: in clip space, and on the screen as soon as that is known.
+struct ClipCorner {
+    glm::dvec3 at;  // across, up, and away
+    bool is_projected;
+    ScreenCorner screen;
+};
+constexpr std::size_t most_corners = 8;  // three, and one more a plane
+struct Polygon {
+    std::array<ClipCorner, most_corners> corners;
+    std::size_t count = 0;
+};
+
+// Whoever was projected is inside, however the last bit falls.
+double distance(const ClipCorner& corner, glm::dvec3 normal, double offset) {
+    const double d = glm::dot(normal, corner.at) - offset;
+    return corner.is_projected ? std::max(d, 0.0) : d;
+}
+
+// What of a polygon is on the inner side, where normal . at >= offset. A cut goes from the inside out, whichever
+// neighbour asks, so that neighbours stay seamless.
+Polygon cut(const Polygon& polygon, glm::dvec3 normal, double offset) {
+    Polygon out;
+    for (std::size_t i = 0; i < polygon.count; ++i) {
+        const ClipCorner& a = polygon.corners[i];
+        const ClipCorner& b = polygon.corners[(i + 1) % polygon.count];
+        const double from_a = distance(a, normal, offset), from_b = distance(b, normal, offset);
+        if (from_a >= 0) out.corners[out.count++] = a;
+        if ((from_a >= 0) == (from_b >= 0)) continue;
+        const bool a_is_inside = from_a >= 0;
+        const ClipCorner& inner = a_is_inside ? a : b;
+        const ClipCorner& outer = a_is_inside ? b : a;
+        const double in = a_is_inside ? from_a : from_b, beyond = a_is_inside ? from_b : from_a;
+        out.corners[out.count++] = {inner.at + (outer.at - inner.at) * (in / (in - beyond)), false, {}};
+    }
+    return out;
+}
+
+// Planes' normals and offsets: near, then the guard band's four sides.
+struct ClipPlanes {
+    std::array<glm::dvec4, 5> planes;
+    glm::dvec2 half;  // [px] of the picture
+
+    explicit ClipPlanes(const View& view) : half(0.5 * view.width, 0.5 * view.height) {
+        const glm::dvec2 reach = (half + (guard_band - 1.0)) / half;
+        planes = {glm::dvec4(0, 0, 1, near_plane), glm::dvec4(1, 0, reach.x, 0), glm::dvec4(-1, 0, reach.x, 0),
+                  glm::dvec4(0, 1, reach.y, 0), glm::dvec4(0, -1, reach.y, 0)};
+    }
+};
+
+ScreenCorner projected(const ClipCorner& corner, glm::dvec2 half) {
+    if (corner.is_projected) return corner.screen;
+    const double away = std::max(corner.at.z, static_cast<double>(near_plane));
+    const double x = (corner.at.x / away * half.x + half.x) * subpixels;
+    const double y = (corner.at.y / away * -half.y + half.y) * subpixels;
+    const glm::dvec2 low(-guard_band * subpixels), high = (2.0 * half + static_cast<double>(guard_band)) * 256.0;
+    return {static_cast<std::int32_t>(std::lround(std::clamp(x, low.x, high.x))),
+            static_cast<std::int32_t>(std::lround(std::clamp(y, low.y, high.y))),
+            static_cast<float>(static_cast<double>(near_plane) / away)};
+}
+
+void add_clipped(const View& view, const Corners& corners, const ScreenCorners& screen, const Triangle& triangle,
+                 std::uint32_t surface, std::vector<ScreenTriangle>& out) {
+    Polygon polygon;
+    for (const std::uint32_t i : triangle) {
+        const glm::vec3 relative = glm::vec3(corners.x[i], corners.y[i], corners.z[i]) - glm::vec3(view.position);
+        const glm::dvec4 clip = glm::dmat4(view.clip_from_camera_relative) * glm::dvec4(glm::dvec3(relative), 1.0);
+        if (!std::isfinite(clip.x) || !std::isfinite(clip.y) || !std::isfinite(clip.w)) return;
+        polygon.corners[polygon.count++] = {glm::dvec3(clip.x, clip.y, clip.w),
+                                            (screen.sides[i] & clipped) == 0,
+                                            {screen.x[i], screen.y[i], screen.depth[i]}};
+    }
+    const ClipPlanes clip(view);
+    for (const glm::dvec4& plane : clip.planes) polygon = cut(polygon, glm::dvec3(plane), plane.w);
+    if (polygon.count < 3) return;
+    const ScreenCorner first = projected(polygon.corners[0], clip.half);
+    ScreenCorner last = projected(polygon.corners[1], clip.half);
+    for (std::size_t i = 2; i < polygon.count; ++i) {
+        const ScreenCorner next = projected(polygon.corners[i], clip.half);
+        add_if_seen(view, first, last, next, surface, out);
+        last = next;
+    }
+}
+
+}  // namespace
+
+Corners::Corners(const std::vector<glm::vec3>& positions)
+    : count(padded(positions.size())),
+      x(hwy::AllocateAligned<float>(count)),
+      y(hwy::AllocateAligned<float>(count)),
+      z(hwy::AllocateAligned<float>(count)) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::vec3 position = positions[std::min(i, positions.size() - 1)];
+        x[i] = position.x;
+        y[i] = position.y;
+        z[i] = position.z;
+    }
+}
+
+ScreenCorners::ScreenCorners(std::size_t count)
+    : x(hwy::AllocateAligned<std::int32_t>(count)),
+      y(hwy::AllocateAligned<std::int32_t>(count)),
+      depth(hwy::AllocateAligned<float>(count)),
+      sides(hwy::AllocateAligned<std::int32_t>(count)) {}
+
+HWY_EXPORT(project);
+void project(const View& view, const Corners& corners, ScreenCorners& out) {
+    HWY_DYNAMIC_DISPATCH(project)(view, corners, out);
+}
+
+void add_visible(const View& view, const Corners& corners, const ScreenCorners& screen,
+                 const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& surfaces,
+                 std::vector<ScreenTriangle>& out) {
+    const auto corner = [&](std::uint32_t i) { return ScreenCorner{screen.x[i], screen.y[i], screen.depth[i]}; };
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        const auto [a, b, c] = triangles[i];
+        const std::int32_t sa = screen.sides[a], sb = screen.sides[b], sc = screen.sides[c];
+        if ((sa & sb & sc & ~clipped) != 0) continue;
+        if (((sa | sb | sc) & clipped) == 0)
+            add_if_seen(view, corner(a), corner(b), corner(c), surfaces[i], out);
+        else
+            add_clipped(view, corners, screen, triangles[i], surfaces[i], out);
+    }
+}
+
+}  // namespace render::native
+#endif

@@ -1,0 +1,60 @@
+// A view of a mesh: its triangles as pixels see them.
+#pragma once
+
+#include <hwy/aligned_allocator.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "render/view.h"
+
+namespace render::native {
+
+inline constexpr int subpixels = 256;         // in a pixel, along x and y
+inline constexpr int largest_picture = 8192;  // [px] either side
+inline constexpr int guard_band = 4096;       // [px] around the picture: what reaches farther out is clipped
+
+// Clockwise on the screen, x to the right and y down; no two corners are farther apart than 2^22 subpixels. Where it is
+// seen, its depth is linear in the pixel.
+struct ScreenTriangle {
+    std::array<std::int32_t, 3> x, y;  // [1/256 px] from the picture's top left corner
+    std::uint32_t surface;
+    float nearest;                   // the greatest depth of its corners
+    double depth, depth_x, depth_y;  // reversed depth at the centre of pixel (0, 0), and what it grows by along x and y
+};
+
+// Positions as arrays, filled up with copies of the last to a multiple of the longest vector.
+struct Corners {
+    Corners() = default;
+    explicit Corners(const std::vector<glm::vec3>& positions);
+
+    std::size_t count = 0;                       // a multiple of 16
+    hwy::AlignedFreeUniquePtr<float[]> x, y, z;  // [m] world
+};
+
+// The corners as a view sees them.
+struct ScreenCorners {
+    explicit ScreenCorners(std::size_t count);
+
+    hwy::AlignedFreeUniquePtr<std::int32_t[]> x, y;   // [1/256 px]; of no use where `sides` says clipped
+    hwy::AlignedFreeUniquePtr<float[]> depth;         // reversed
+    hwy::AlignedFreeUniquePtr<std::int32_t[]> sides;  // of which sides of the frustum it is outside, and `clipped`
+};
+inline constexpr std::int32_t outside_left = 1, outside_right = 2, outside_top = 4, outside_bottom = 8;
+inline constexpr std::int32_t clipped = 16;  // before the near plane, beyond the guard band, or not finite
+
+// out: of as many as `corners`.
+void project(const View& view, const Corners& corners, ScreenCorners& out);
+
+using Triangle = std::array<std::uint32_t, 3>;  // indices of corners, counter-clockwise seen from outside
+
+// Appends to `out` what faces the camera and may cover a pixel's centre, in the order of `triangles`; of clipped ones
+// the rest, in several triangles. surface(i) is what triangle i is given.
+void add_visible(const View& view, const Corners& corners, const ScreenCorners& screen,
+                 const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& surfaces,
+                 std::vector<ScreenTriangle>& out);
+
+}  // namespace render::native
