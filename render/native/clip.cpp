@@ -1,0 +1,101 @@
+#include "render/native/clip.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/view.h"
+
+namespace render::native {
+
+namespace {
+
+// A triangle, and a corner more for each plane.
+struct Polygon {
+    std::array<PlacedCorner, 3 + 5> corners;
+    std::size_t count = 0;
+
+    void add(const PlacedCorner& corner) { corners[count++] = corner; }
+};
+
+PlacedCorner between(const PlacedCorner& a, const PlacedCorner& b, double share) {
+    const auto weight = static_cast<float>(share);
+    const auto mixed = [&](float from, float to) { return from + (to - from) * weight; };
+    PlacedCorner c;
+    c.position = a.position + (b.position - a.position) * share;
+    for (int i = 0; i < 3; ++i) {
+        c.look.light[i] = mixed(a.look.light[i], b.look.light[i]);
+        c.look.albedo[i] = mixed(a.look.albedo[i], b.look.albedo[i]);
+    }
+    c.look.u = mixed(a.look.u, b.look.u);
+    c.look.v = mixed(a.look.v, b.look.v);
+    return c;
+}
+
+// Always from the inner end to the outer one, so that both triangles at an edge cut it at the same place.
+PlacedCorner cut(const PlacedCorner& inner, double inner_distance, const PlacedCorner& outer, double outer_distance) {
+    return between(inner, outer, inner_distance / (inner_distance - outer_distance));
+}
+
+// Keeps where `distance` of a position is >= 0.
+template <typename Distance>
+Polygon kept(const Polygon& from, Distance distance) {
+    Polygon out;
+    for (std::size_t i = 0; i < from.count; ++i) {
+        const PlacedCorner& here = from.corners[i];
+        const PlacedCorner& next = from.corners[(i + 1) % from.count];
+        const double d = distance(here.position), next_d = distance(next.position);
+        if (d >= 0) out.add(here);
+        if (d >= 0 && next_d < 0) out.add(cut(here, d, next, next_d));
+        if (d < 0 && next_d >= 0) out.add(cut(next, next_d, here, d));
+    }
+    return out;
+}
+
+Polygon clipped(const std::array<PlacedCorner, 3>& triangle) {
+    constexpr double reach = wide_reach / 2;  // the picture's middle lies within the other half
+    Polygon polygon;
+    for (const PlacedCorner& corner : triangle) polygon.add(corner);
+    polygon = kept(polygon, [](const glm::dvec3& p) { return p.z - static_cast<double>(near_plane); });
+    polygon = kept(polygon, [](const glm::dvec3& p) { return reach * p.z - p.x; });
+    polygon = kept(polygon, [](const glm::dvec3& p) { return reach * p.z + p.x; });
+    polygon = kept(polygon, [](const glm::dvec3& p) { return reach * p.z - p.y; });
+    return kept(polygon, [](const glm::dvec3& p) { return reach * p.z + p.y; });
+}
+
+std::int64_t twice_area(const WideTriangle& t) {
+    const auto x = [&](int i) { return std::int64_t{t.x[i]} - t.x[0]; };
+    const auto y = [&](int i) { return std::int64_t{t.y[i]} - t.y[0]; };
+    return x(1) * y(2) - y(1) * x(2);
+}
+
+void swap_sides(WideTriangle& t) {
+    std::swap(t.x[1], t.x[2]);
+    std::swap(t.y[1], t.y[2]);
+    std::swap(t.corners[1], t.corners[2]);
+}
+
+}  // namespace
+
+void append_clipped(const std::array<PlacedCorner, 3>& triangle, double center_x, double center_y, bool double_sided,
+                    std::uint8_t layer, std::vector<WideTriangle>& out) {
+    const Polygon polygon = clipped(triangle);
+    for (std::size_t i = 2; i < polygon.count; ++i) {
+        WideTriangle t;
+        t.layer = layer;
+        const std::size_t numbers[] = {0, i - 1, i};
+        for (int k = 0; k < 3; ++k) {
+            const PlacedCorner& corner = polygon.corners[numbers[k]];
+            const glm::dvec3& p = corner.position;
+            t.x[k] = static_cast<std::int32_t>(std::floor(p.x / p.z + center_x + 0.5));
+            t.y[k] = static_cast<std::int32_t>(std::floor(p.y / p.z + center_y + 0.5));
+            t.corners[k] = corner.look;
+            t.corners[k].depth = static_cast<float>(static_cast<double>(near_plane) / p.z);
+        }
+        const std::int64_t area = twice_area(t);
+        if (area == 0 || (area < 0 && !double_sided)) continue;
+        if (area < 0) swap_sides(t);
+        out.push_back(t);
+    }
+}
+
+}  // namespace render::native

@@ -1,0 +1,518 @@
+#include "render/native/fill.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/native/fill.cpp"
+#include <hwy/foreach_target.h>
+// What follows is compiled once for every target.
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace render::native::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+static_assert(group == block_samples);
+using Floats = HWY_CAPPED(float, group);
+using Ints = hn::Rebind<std::int32_t, Floats>;
+using Words = hn::Rebind<std::uint32_t, Floats>;
+using Four = hn::FixedTag<float, 4>;
+using VFloat = hn::Vec<Floats>;
+using VInt = hn::Vec<Ints>;
+using VWords = hn::Vec<Words>;
+using FloatMask = hn::Mask<Floats>;
+
+constexpr int lanes = static_cast<int>(hn::MaxLanes(Floats()));
+constexpr int parts = block_samples / lanes;  // vectors a block
+
+struct Offsets {
+    alignas(64) std::int32_t x[block_samples], y[block_samples];
+};
+// Where a block's samples are in it.
+constexpr Offsets offsets = [] {
+    Offsets made{};
+    for (int i = 0; i < block_samples; ++i) {
+        made.x[i] = sample_x(i);
+        made.y[i] = sample_y(i);
+    }
+    return made;
+}();
+
+// What is linear between three corners: at the first, and how much more at the second and third. With the depth last.
+struct alignas(16) PlainShading {
+    float at[4], to_second[4], to_third[4];
+};
+
+VFloat between(float at, float to_second, float to_third, VFloat second, VFloat third) {
+    const Floats f;
+    return hn::Add(hn::Add(hn::Set(f, at), hn::Mul(hn::Set(f, to_second), second)),
+                   hn::Mul(hn::Set(f, to_third), third));
+}
+
+// Of a colour in [0, full] and a half.
+VWords rounded(VFloat color_and_half) {
+    const auto most = hn::Set(Floats(), full);
+    return hn::BitCast(Words(), hn::ConvertTo(Ints(), hn::Min(color_and_half, most)));
+}
+
+void store(VFloat red, VFloat green, VFloat blue, FloatMask mask, Block& block, int lane) {
+    const Words w;
+    const auto wide_mask = hn::RebindMask(w, mask);
+    hn::BlendedStore(hn::Or(rounded(red), hn::ShiftLeft<16>(rounded(green))), wide_mask, w, block.red_green + lane);
+    hn::BlendedStore(rounded(blue), wide_mask, w, block.blue + lane);
+}
+
+// Those of `inside` that are nearer than what is there, and their depth.
+FloatMask nearer(VFloat depth, FloatMask inside, Block& block, int lane) {
+    const Floats f;
+    const auto mask = hn::And(inside, hn::Gt(depth, hn::Load(f, block.depth + lane)));
+    hn::BlendedStore(depth, mask, f, block.depth + lane);
+    return mask;
+}
+
+// `second`, `third`: how much of those corners each sample is.
+void shade(const PlainShading& s, VFloat second, VFloat third, FloatMask inside, Block& block, int lane) {
+    const auto value = [&](int i) { return between(s.at[i], s.to_second[i], s.to_third[i], second, third); };
+    const FloatMask mask = nearer(value(3), inside, block, lane);
+    if (hn::AllFalse(Floats(), mask)) return;
+    store(value(0), value(1), value(2), mask, block, lane);
+}
+
+// One mipmap; null: none.
+struct Texels {
+    const std::int32_t* data = nullptr;
+    int side = 1;  // [texels]
+};
+
+// Corners that differ in everything, in perspective.
+struct RichShading {
+    Corner at, to_second, to_third;
+    float depth_second, depth_third;
+    Texels texels;
+};
+
+struct Color {
+    VFloat red, green, blue;
+};
+
+// Bilinear, in the texels' own coding, then made linear.
+Color texel(const Texels& texels, VFloat u, VFloat v) {
+    const Floats f;
+    const Ints i;
+    constexpr int steps = 256;  // between two texels
+    const auto fixed = [&](VFloat t) {
+        const auto in_tile = hn::Sub(t, hn::Floor(t));
+        return hn::ConvertTo(i, hn::Floor(hn::Add(hn::Mul(in_tile, hn::Set(f, static_cast<float>(steps * texels.side))),
+                                                  hn::Set(f, 0.5f - steps / 2))));
+    };
+    const auto x = fixed(u), y = fixed(v);
+    const auto wrap = hn::Set(i, texels.side - 1);
+    const auto one = hn::Set(i, 1);
+    const auto x0 = hn::And(hn::ShiftRight<8>(x), wrap), x1 = hn::And(hn::Add(x0, one), wrap);
+    const auto y0 = hn::And(hn::ShiftRight<8>(y), wrap), y1 = hn::And(hn::Add(y0, one), wrap);
+    const auto side = hn::Set(i, texels.side);
+    const auto row0 = hn::Mul(y0, side), row1 = hn::Mul(y1, side);
+    const auto a = hn::GatherIndex(i, texels.data, hn::Add(row0, x0));
+    const auto b = hn::GatherIndex(i, texels.data, hn::Add(row0, x1));
+    const auto c = hn::GatherIndex(i, texels.data, hn::Add(row1, x0));
+    const auto d = hn::GatherIndex(i, texels.data, hn::Add(row1, x1));
+    const auto low = hn::Set(i, 255);
+    const auto right = hn::And(x, low), lower = hn::And(y, low);
+    const auto left = hn::Sub(hn::Set(i, steps), right), upper = hn::Sub(hn::Set(i, steps), lower);
+    const auto channel = [&](auto shifted) {
+        const auto above = hn::Add(hn::Mul(shifted(a), left), hn::Mul(shifted(b), right));
+        const auto below = hn::Add(hn::Mul(shifted(c), left), hn::Mul(shifted(d), right));
+        const auto sum = hn::Add(hn::Mul(above, upper), hn::Mul(below, lower));
+        const auto srgb = hn::Mul(hn::ConvertTo(f, sum), hn::Set(f, 1.0f / (255.0f * steps * steps)));
+        return hn::Mul(srgb, srgb);
+    };
+    return {channel([&](VInt t) { return hn::And(t, low); }),
+            channel([&](VInt t) { return hn::And(hn::ShiftRight<8>(t), low); }),
+            channel([&](VInt t) { return hn::And(hn::ShiftRight<16>(t), low); })};
+}
+
+void shade(const RichShading& s, VFloat second, VFloat third, FloatMask inside, Block& block, int lane) {
+    const Floats f;
+    // Outside of the triangle nothing is promised of the numbers below.
+    second = hn::IfThenElseZero(inside, second);
+    third = hn::IfThenElseZero(inside, third);
+    const auto depth = between(s.at.depth, s.to_second.depth, s.to_third.depth, second, third);
+    const FloatMask mask = nearer(depth, inside, block, lane);
+    if (hn::AllFalse(f, mask)) return;
+    second = hn::Div(hn::Mul(second, hn::Set(f, s.depth_second)), depth);
+    third = hn::Div(hn::Mul(third, hn::Set(f, s.depth_third)), depth);
+    const auto color = [&](int c) {
+        const auto light = between(s.at.light[c], s.to_second.light[c], s.to_third.light[c], second, third);
+        const auto albedo = between(s.at.albedo[c], s.to_second.albedo[c], s.to_third.albedo[c], second, third);
+        return hn::Mul(light, albedo);
+    };
+    Color shown{color(0), color(1), color(2)};
+    if (s.texels.data != nullptr) {
+        const Color texture = texel(s.texels, between(s.at.u, s.to_second.u, s.to_third.u, second, third),
+                                    between(s.at.v, s.to_second.v, s.to_third.v, second, third));
+        shown = {hn::Mul(shown.red, texture.red), hn::Mul(shown.green, texture.green),
+                 hn::Mul(shown.blue, texture.blue)};
+    }
+    const auto half = hn::Set(f, 0.5f);
+    store(hn::Add(shown.red, half), hn::Add(shown.green, half), hn::Add(shown.blue, half), mask, block, lane);
+}
+
+PlainShading plain_shading(const LitVertex& a, const LitVertex& b, const LitVertex& c, const Tint& tint) {
+    const Four f;
+    static_assert(sizeof(Tint) == sizeof(LitVertex));
+    const auto color = hn::Load(f, &tint.red);
+    const auto at = hn::Mul(hn::Load(f, a.light), color);
+    const auto to_second = hn::Sub(hn::Mul(hn::Load(f, b.light), color), at);
+    const auto to_third = hn::Sub(hn::Mul(hn::Load(f, c.light), color), at);
+    alignas(16) constexpr float half[] = {0.5f, 0.5f, 0.5f, 0.0f};  // for `rounded`
+    PlainShading shading;
+    hn::Store(hn::Add(at, hn::Load(f, half)), f, shading.at);
+    hn::Store(to_second, f, shading.to_second);
+    hn::Store(to_third, f, shading.to_third);
+    return shading;
+}
+
+Corner difference(const Corner& a, const Corner& b) {
+    Corner d;
+    for (int c = 0; c < 3; ++c) {
+        d.light[c] = a.light[c] - b.light[c];
+        d.albedo[c] = a.albedo[c] - b.albedo[c];
+    }
+    d.depth = a.depth - b.depth;
+    d.u = a.u - b.u;
+    d.v = a.v - b.v;
+    return d;
+}
+
+// How a triangle's two later corners come and go along the screen [1 / sample].
+struct Slopes {
+    float second_x, second_y, third_x, third_y;
+};
+
+// The mipmap whose texels are nearest to samples in size, in the triangle's middle.
+int mipmap(const TextureLayers& textures, const Corner (&corners)[3], const Slopes& slopes) {
+    const float first_x = -slopes.second_x - slopes.third_x, first_y = -slopes.second_y - slopes.third_y;
+    const auto [a, b, c] = corners;
+    const float depth = a.depth + b.depth + c.depth;
+    const auto slope = [&](float t0, float t1, float t2, float s0, float s1, float s2) {
+        const float mean = (t0 * a.depth + t1 * b.depth + t2 * c.depth) / depth;
+        return 3 * (s0 * a.depth * (t0 - mean) + s1 * b.depth * (t1 - mean) + s2 * c.depth * (t2 - mean)) / depth;
+    };
+    const float u_x = slope(a.u, b.u, c.u, first_x, slopes.second_x, slopes.third_x);
+    const float v_x = slope(a.v, b.v, c.v, first_x, slopes.second_x, slopes.third_x);
+    const float u_y = slope(a.u, b.u, c.u, first_y, slopes.second_y, slopes.third_y);
+    const float v_y = slope(a.v, b.v, c.v, first_y, slopes.second_y, slopes.third_y);
+    const auto side = static_cast<float>(textures.side(0));
+    const float squared = std::max(u_x * u_x + v_x * v_x, u_y * u_y + v_y * v_y) * side * side;
+    if (!(squared > 1)) return 0;
+    const int most = textures.levels() - 1;
+    return squared < 1e12f ? std::min(std::ilogb(2 * squared) / 2, most) : most;
+}
+
+RichShading rich_shading(const TextureLayers& textures, const Corner (&corners)[3], std::uint8_t layer,
+                         const Slopes& slopes) {
+    RichShading shading{corners[0],
+                        difference(corners[1], corners[0]),
+                        difference(corners[2], corners[0]),
+                        corners[1].depth,
+                        corners[2].depth,
+                        {}};
+    if (layer == untextured) return shading;
+    const int level = mipmap(textures, corners, slopes);
+    shading.texels = {reinterpret_cast<const std::int32_t*>(textures.texels(layer, level)), textures.side(level)};
+    return shading;
+}
+
+// ---- people of no more than reach_on_grid: 32-bit edges, a group of triangles set up at a time ----
+
+// Edge k lies opposite of corner k; inside all three are >= 0. In steps of a sample, rounded down.
+struct alignas(64) EdgeGroup {
+    std::int32_t along[3][group], down[3][group];  // more a sample to the right, below
+    std::int32_t start[3][group];                  // at the first sample of the first block
+    // How much of corner k = 1, 2 a sample is: scale * edge + rest[k - 1].
+    float scale[group], rest[2][group];
+    std::int32_t first_column[group], end_column[group], first_row[group], end_row[group];  // blocks from the person's
+};
+
+struct Blocks {
+    int first_column, end_column, first_row, end_row;
+};
+
+struct Points {
+    VInt x[3], y[3];
+};
+
+// Blocks whose samples a span on the grid may hold, cut to [first, end).
+void block_range(VInt least, VInt most, int first, int end, VInt& from, VInt& to) {
+    const Ints i;
+    const auto first_sample = hn::ShiftRight<4>(hn::Add(least, hn::Set(i, grid_per_sample / 2 - 1)));
+    const auto last_sample = hn::ShiftRight<4>(hn::Sub(most, hn::Set(i, grid_per_sample / 2)));
+    from = hn::Max(hn::ShiftRight<2>(first_sample), hn::Set(i, first));
+    to = hn::Min(hn::Add(hn::ShiftRight<2>(last_sample), hn::Set(i, 1)), hn::Set(i, end));
+}
+static_assert(grid_per_sample == 16 && block_side == 4);
+
+// Those lanes of `out` that have any block; a bit each.
+std::uint32_t set_up(const FacingTriangles& facing, std::uint32_t first, const Blocks& tile, EdgeGroup& out) {
+    const Floats f;
+    const Ints i;
+    const Words w;
+    std::uint32_t alive = 0;
+    for (int lane = 0; lane < group; lane += lanes) {
+        Points p;
+        for (int k = 0; k < 3; ++k) {
+            const auto packed = hn::BitCast(i, hn::LoadU(w, facing.corners[k] + first + lane));
+            p.x[k] = hn::ShiftRight<16>(hn::ShiftLeft<16>(packed));
+            p.y[k] = hn::ShiftRight<16>(packed);
+        }
+        VInt column, end_column, row, end_row;
+        block_range(hn::Min(p.x[0], hn::Min(p.x[1], p.x[2])), hn::Max(p.x[0], hn::Max(p.x[1], p.x[2])),
+                    tile.first_column, tile.end_column, column, end_column);
+        block_range(hn::Min(p.y[0], hn::Min(p.y[1], p.y[2])), hn::Max(p.y[0], hn::Max(p.y[1], p.y[2])), tile.first_row,
+                    tile.end_row, row, end_row);
+        const auto some = hn::And(hn::Gt(end_column, column), hn::Gt(end_row, row));
+        std::uint8_t bits[8] = {};
+        hn::StoreMaskBits(i, some, bits);
+        const std::uint32_t mask = bits[0] | static_cast<std::uint32_t>(bits[1]) << 8;
+        alive |= mask << lane;
+        if (mask == 0) continue;
+        hn::Store(column, i, out.first_column + lane);
+        hn::Store(end_column, i, out.end_column + lane);
+        hn::Store(row, i, out.first_row + lane);
+        hn::Store(end_row, i, out.end_row + lane);
+
+        // Of the first sample of the first block.
+        const auto sample_x = hn::Add(hn::ShiftLeft<6>(column), hn::Set(i, grid_per_sample / 2));
+        const auto sample_y = hn::Add(hn::ShiftLeft<6>(row), hn::Set(i, grid_per_sample / 2));
+        const auto zero = hn::Zero(i);
+        const auto area = hn::Sub(hn::Mul(hn::Sub(p.x[1], p.x[0]), hn::Sub(p.y[2], p.y[0])),
+                                  hn::Mul(hn::Sub(p.y[1], p.y[0]), hn::Sub(p.x[2], p.x[0])));
+        const auto over_area = hn::Div(hn::Set(f, 1.0f), hn::ConvertTo(f, area));
+        hn::Store(hn::Mul(over_area, hn::Set(f, float{grid_per_sample})), f, out.scale + lane);
+        for (int k = 0; k < 3; ++k) {
+            const int from = (k + 1) % 3, to = (k + 2) % 3;
+            const auto along = hn::Sub(p.y[from], p.y[to]);
+            const auto down = hn::Sub(p.x[to], p.x[from]);
+            const auto exact =
+                hn::Add(hn::Mul(along, hn::Sub(sample_x, p.x[from])), hn::Mul(down, hn::Sub(sample_y, p.y[from])));
+            const auto owns = hn::Or(hn::Gt(along, zero), hn::And(hn::Eq(along, zero), hn::Gt(down, zero)));
+            const auto owned = hn::Sub(exact, hn::IfThenZeroElse(owns, hn::Set(i, 1)));
+            const auto floor = hn::ShiftRight<4>(owned);
+            hn::Store(along, i, out.along[k] + lane);
+            hn::Store(down, i, out.down[k] + lane);
+            hn::Store(floor, i, out.start[k] + lane);
+            if (k == 0) continue;
+            const auto rest = hn::ConvertTo(f, hn::Sub(exact, hn::ShiftLeft<4>(floor)));
+            hn::Store(hn::Mul(rest, over_area), f, out.rest[k - 1] + lane);
+        }
+    }
+    return alive;
+}
+
+// Triangle `t` of a group; calls `shading` once if any sample is hit.
+template <typename Shading>
+void fill_triangle(const EdgeGroup& edges, int t, int origin_column, int origin_row, NearLayer& layer,
+                   Shading shading) {
+    const Floats f;
+    const Ints i;
+    VInt row_edge[3][parts], right[3], below[3];
+    for (int k = 0; k < 3; ++k) {
+        const auto along = hn::Set(i, edges.along[k][t]), down = hn::Set(i, edges.down[k][t]);
+        const auto start = hn::Set(i, edges.start[k][t]);
+        right[k] = hn::ShiftLeft<2>(along);
+        below[k] = hn::ShiftLeft<2>(down);
+        for (int part = 0; part < parts; ++part) {
+            const auto x = hn::Load(i, offsets.x + part * lanes), y = hn::Load(i, offsets.y + part * lanes);
+            row_edge[k][part] = hn::Add(start, hn::Add(hn::Mul(along, x), hn::Mul(down, y)));
+        }
+    }
+    const auto scale = hn::Set(f, edges.scale[t]);
+    const auto rest_second = hn::Set(f, edges.rest[0][t]), rest_third = hn::Set(f, edges.rest[1][t]);
+    decltype(shading()) shades;
+    bool ready = false;
+    for (int row = edges.first_row[t]; row < edges.end_row[t]; ++row) {
+        VInt edge[3][parts];
+        for (int k = 0; k < 3; ++k)
+            for (int part = 0; part < parts; ++part) {
+                edge[k][part] = row_edge[k][part];
+                row_edge[k][part] = hn::Add(row_edge[k][part], below[k]);
+            }
+        for (int column = edges.first_column[t]; column < edges.end_column[t]; ++column) {
+            for (int part = 0; part < parts; ++part) {
+                const auto outside = hn::Or(hn::Or(edge[0][part], edge[1][part]), edge[2][part]);
+                const auto inside = hn::RebindMask(f, hn::Gt(outside, hn::Set(i, -1)));
+                if (!hn::AllFalse(f, inside)) {
+                    if (!ready) {
+                        shades = shading();
+                        ready = true;
+                    }
+                    const auto second = hn::Add(hn::Mul(hn::ConvertTo(f, edge[1][part]), scale), rest_second);
+                    const auto third = hn::Add(hn::Mul(hn::ConvertTo(f, edge[2][part]), scale), rest_third);
+                    shade(shades, second, third, inside, layer.block(origin_column + column, origin_row + row),
+                          part * lanes);
+                }
+                for (int k = 0; k < 3; ++k) edge[k][part] = hn::Add(edge[k][part], right[k]);
+            }
+        }
+    }
+}
+
+constexpr float flat_enough = 0.99f;  // of depths, nearest by farthest: their perspective doesn't show
+
+bool is_flat(float a, float b, float c) {
+    return std::min({a, b, c}) >= flat_enough * std::max({a, b, c});
+}
+
+RichShading rich_shading(const PersonMesh& mesh, const Face& face, const std::uint32_t (&corners)[3],
+                         const std::uint32_t (&paints)[3], const LitVertex* vertices, const Tint* tints,
+                         const Slopes& slopes) {
+    Corner all[3];
+    for (int k = 0; k < 3; ++k) {
+        const LitVertex& vertex = vertices[corners[k]];
+        const Tint& tint = tints[paints[k]];
+        const glm::vec2 uv = mesh.uvs.empty() ? glm::vec2(0) : mesh.uvs[corners[k]];
+        all[k] = {{vertex.light[0], vertex.light[1], vertex.light[2]},
+                  vertex.depth,
+                  {tint.red, tint.green, tint.blue},
+                  uv.x,
+                  uv.y};
+    }
+    return rich_shading(mesh.textures, all, face.layer, slopes);
+}
+
+void fill_person(const PersonMesh& mesh, const FacingTriangles& facing, int origin_x, int origin_y,
+                 const LitVertex* vertices, const Tint* tints, NearLayer& layer) {
+    const int origin_column = origin_x / block_side, origin_row = origin_y / block_side;
+    const Blocks tile{layer.first_column() - origin_column, layer.end_column() - origin_column,
+                      layer.first_row() - origin_row, layer.end_row() - origin_row};
+    EdgeGroup edges;
+    for (std::uint32_t first = 0; first < facing.count; first += group) {
+        std::uint32_t alive = set_up(facing, first, tile, edges);
+        if (facing.count - first < group) alive &= (1u << (facing.count - first)) - 1;
+        for (; alive != 0; alive &= alive - 1) {
+            const int t = std::countr_zero(alive);
+            const std::uint32_t number = facing.face[first + t];
+            const Face& face = mesh.faces[number & ~from_behind];
+            const bool turned = (number & from_behind) != 0;
+            const std::uint32_t corners[3] = {face.corners[0], face.corners[turned ? 2 : 1],
+                                              face.corners[turned ? 1 : 2]};
+            const LitVertex &a = vertices[corners[0]], &b = vertices[corners[1]], &c = vertices[corners[2]];
+            if (face.plain && is_flat(a.depth, b.depth, c.depth)) {
+                fill_triangle(edges, t, origin_column, origin_row, layer,
+                              [&] { return plain_shading(a, b, c, tints[face.paints[0]]); });
+                continue;
+            }
+            const std::uint32_t paints[3] = {face.paints[0], face.paints[turned ? 2 : 1], face.paints[turned ? 1 : 2]};
+            fill_triangle(edges, t, origin_column, origin_row, layer, [&] {
+                const auto slope = [&](const std::int32_t(&of)[group]) {
+                    return static_cast<float>(of[t]) * edges.scale[t];
+                };
+                return rich_shading(
+                    mesh, face, corners, paints, vertices, tints,
+                    {slope(edges.along[1]), slope(edges.down[1]), slope(edges.along[2]), slope(edges.down[2])});
+            });
+        }
+    }
+}
+
+// ---- triangles of any size: 64-bit edges, one at a time ----
+
+struct WideEdge {
+    std::int64_t along, down,
+        at_corner;  // [grid steps squared]; a grid step more to the right, below; at the picture's
+    bool owns;
+
+    std::int64_t at(std::int64_t x, std::int64_t y) const { return along * x + down * y + at_corner; }
+};
+
+WideEdge edge_between(const WideTriangle& t, int from, int to) {
+    const std::int64_t along = std::int64_t{t.y[from]} - t.y[to], down = std::int64_t{t.x[to]} - t.x[from];
+    return {along, down, -(along * t.x[from] + down * t.y[from]), along > 0 || (along == 0 && down > 0)};
+}
+
+// 32 bits are enough for a sign: within a block an edge changes by less than this limit.
+std::int32_t clamped(std::int64_t edge) {
+    constexpr std::int64_t limit = 1 << 30;
+    static_assert(2 * std::int64_t{block_side} * grid_per_sample * 2 * wide_reach <= limit);
+    return static_cast<std::int32_t>(std::clamp(edge, -limit, limit));
+}
+
+Blocks blocks_of(const WideTriangle& t, const NearLayer& layer) {
+    constexpr int step = block_side * grid_per_sample;
+    const auto [min_x, max_x] = std::minmax({t.x[0], t.x[1], t.x[2]});
+    const auto [min_y, max_y] = std::minmax({t.y[0], t.y[1], t.y[2]});
+    const auto block = [](std::int32_t at) { return at >= 0 ? at / step : -1; };  // none is left of the picture
+    return {std::max(block(min_x), layer.first_column()), std::min(block(max_x) + 1, layer.end_column()),
+            std::max(block(min_y), layer.first_row()), std::min(block(max_y) + 1, layer.end_row())};
+}
+
+void fill_wide(const TextureLayers& textures, const WideTriangle& t, NearLayer& layer) {
+    const Floats f;
+    const Ints i;
+    const Blocks blocks = blocks_of(t, layer);
+    if (blocks.first_column >= blocks.end_column || blocks.first_row >= blocks.end_row) return;
+    const WideEdge edges[3] = {edge_between(t, 1, 2), edge_between(t, 2, 0), edge_between(t, 0, 1)};
+    const double over_area = 1.0 / static_cast<double>(edges[0].at(t.x[0], t.y[0]));
+    const auto a_sample = [&](std::int64_t slope) {
+        return static_cast<float>(static_cast<double>(grid_per_sample * slope) * over_area);
+    };
+    const Slopes slopes{a_sample(edges[1].along), a_sample(edges[1].down), a_sample(edges[2].along),
+                        a_sample(edges[2].down)};
+    const RichShading shades = rich_shading(textures, t.corners, t.layer, slopes);
+    for (int row = blocks.first_row; row < blocks.end_row; ++row) {
+        for (int column = blocks.first_column; column < blocks.end_column; ++column) {
+            const std::int64_t x = (std::int64_t{block_side} * column) * grid_per_sample + grid_per_sample / 2;
+            const std::int64_t y = (std::int64_t{block_side} * row) * grid_per_sample + grid_per_sample / 2;
+            const auto share = [&](const WideEdge& edge) {
+                return hn::Set(f, static_cast<float>(static_cast<double>(edge.at(x, y)) * over_area));
+            };
+            for (int lane = 0; lane < block_samples; lane += lanes) {
+                const auto across = hn::Load(i, offsets.x + lane), below = hn::Load(i, offsets.y + lane);
+                auto outside = hn::Zero(i);
+                for (const WideEdge& edge : edges) {
+                    const auto start = hn::Set(i, clamped(edge.at(x, y) - (edge.owns ? 0 : 1)));
+                    const auto along = hn::Set(i, static_cast<std::int32_t>(grid_per_sample * edge.along));
+                    const auto down = hn::Set(i, static_cast<std::int32_t>(grid_per_sample * edge.down));
+                    outside = hn::Or(outside, hn::Add(start, hn::Add(hn::Mul(along, across), hn::Mul(down, below))));
+                }
+                const auto inside = hn::RebindMask(f, hn::Gt(outside, hn::Set(i, -1)));
+                if (hn::AllFalse(f, inside)) continue;
+                const auto x_in = hn::ConvertTo(f, across), y_in = hn::ConvertTo(f, below);
+                const auto moved = [&](const WideEdge& edge, float slope_x, float slope_y) {
+                    return hn::Add(hn::Add(share(edge), hn::Mul(x_in, hn::Set(f, slope_x))),
+                                   hn::Mul(y_in, hn::Set(f, slope_y)));
+                };
+                shade(shades, moved(edges[1], slopes.second_x, slopes.second_y),
+                      moved(edges[2], slopes.third_x, slopes.third_y), inside, layer.block(column, row), lane);
+            }
+        }
+    }
+}
+
+void fill_wide_all(const TextureLayers& textures, std::span<const WideTriangle> triangles, NearLayer& layer) {
+    for (const WideTriangle& triangle : triangles) fill_wide(textures, triangle, layer);
+}
+
+}  // namespace render::native::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace render::native {
+
+HWY_EXPORT(fill_person);
+HWY_EXPORT(fill_wide_all);
+
+void fill(const PersonMesh& mesh, const FacingTriangles& facing, int origin_x, int origin_y, const LitVertex* vertices,
+          const Tint* tints, NearLayer& layer) {
+    HWY_DYNAMIC_DISPATCH(fill_person)(mesh, facing, origin_x, origin_y, vertices, tints, layer);
+}
+
+void fill(const TextureLayers& textures, std::span<const WideTriangle> triangles, NearLayer& layer) {
+    HWY_DYNAMIC_DISPATCH(fill_wide_all)(textures, triangles, layer);
+}
+
+}  // namespace render::native
+#endif  // HWY_ONCE

@@ -1,0 +1,42 @@
+// Triangles into the samples of a layer. Edges are exact integers and neighbours share none of their samples (what lies
+// on an edge belongs to the triangle below or to the right of it), so a closed mesh has no seams.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "render/native/near_layer.h"
+#include "render/native/person_mesh.h"
+#include "render/native/vertices.h"
+
+namespace render::native {
+
+// What a paint is on one person: linear, times `full`.
+struct alignas(16) Tint {
+    float red, green, blue;
+    float one = 1;
+};
+
+// Everything that is interpolated.
+struct Corner {
+    float light[3];
+    float depth;      // near_plane / view depth
+    float albedo[3];  // linear, times `full`
+    float u, v;
+};
+
+// A triangle of any size, anywhere.
+struct WideTriangle {
+    std::int32_t x[3], y[3];  // [grid steps] from the picture's corner, within wide_reach of it; clockwise
+    Corner corners[3];
+    std::uint8_t layer;  // or untextured
+};
+inline constexpr std::int32_t wide_reach = 1 << 21;
+
+// `origin_x`, `origin_y`: the person's [samples], at a block's corner. `tints`: one a paint.
+void fill(const PersonMesh& mesh, const FacingTriangles& facing, int origin_x, int origin_y, const LitVertex* vertices,
+          const Tint* tints, NearLayer& layer);
+
+void fill(const TextureLayers& textures, std::span<const WideTriangle> triangles, NearLayer& layer);
+
+}  // namespace render::native

@@ -1,0 +1,92 @@
+// One tile's people drawn as triangles: four samples a pixel with a depth each, and the pixels that they make.
+#pragma once
+
+#include <hwy/aligned_allocator.h>
+
+#include <array>
+#include <cstdint>
+
+#include "render/native/picture.h"
+
+namespace render::native {
+
+// Pixels [x0, x1) x [y0, y1).
+struct Rect {
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+    bool empty() const { return x0 >= x1 || y0 >= y1; }
+};
+
+inline constexpr int samples_across = 2;  // a pixel has as many samples across, and down, evenly spaced
+inline constexpr int block_pixels = 2;    // a block is so many pixels wide and high,
+inline constexpr int block_side = samples_across * block_pixels;  // and so many samples:
+inline constexpr int block_samples = block_side * block_side;
+inline constexpr float full = 32767;  // a colour or coverage of 1
+
+// Sample i is number i / 4 in its pixel and of pixel i % 4 in its block, both row by row: what a pixel is the mean of
+// lies four apart, which adds up without shuffles.
+constexpr int sample_x(int i) {
+    return samples_across * (i & 1) + (i >> 2 & 1);
+}
+constexpr int sample_y(int i) {
+    return samples_across * (i >> 1 & 1) + (i >> 3);
+}
+
+struct Block {
+    alignas(64) float depth[block_samples];  // near_plane / view depth of what is nearest, the backdrop's at first
+    std::uint32_t red_green[block_samples];  // linear, `full` is 1: red in the low half
+    std::uint32_t blue[block_samples];
+};
+
+// One per thread, reused: allocates once.
+class NearLayer {
+public:
+    NearLayer();
+
+    // Forgets. `tile` begins at even pixels and is at most tile_side wide and high. `behind` is read until resolve().
+    void begin(const Tile& tile, const BackdropPicture& behind);
+    // After the last block was drawn into: box-filters the samples, in linear light.
+    void resolve();
+
+    // After resolve(). Rows of pixels from the tile's first column on, valid inside touched() only; `y` is the
+    // picture's. Four values a pixel: red, green, blue, linear and premultiplied, and coverage; 32767 is 1, and exact.
+    const std::uint16_t* rgba(int y) const { return rgba_.get() + 4 * row_start(y); }
+    // near_plane / view depth of the nearest covered sample; 0: none.
+    const float* depth(int y) const { return depth_.get() + row_start(y); }
+    // Pixels of the picture that may be covered; empty if nobody was drawn.
+    Rect touched() const { return touched_; }
+
+    // For who draws. Blocks are counted from the picture's corner; those of this tile are [first, end).
+    int first_column() const { return tile_.x0 / block_pixels; }
+    int first_row() const { return tile_.y0 / block_pixels; }
+    int end_column() const { return (tile_.x1 + block_pixels - 1) / block_pixels; }
+    int end_row() const { return (tile_.y1 + block_pixels - 1) / block_pixels; }
+    // Of this tile; begins at the backdrop's depth.
+    Block& block(int column, int row) {
+        const int x = column - first_column(), y = row - first_row();
+        Block& block = blocks_[y * blocks_across + x];
+        const std::uint64_t bit = std::uint64_t{1} << x;
+        if ((begun_[y] & bit) == 0) [[unlikely]] {
+            begun_[y] |= bit;
+            begin_block(block, column, row);
+        }
+        return block;
+    }
+
+private:
+    static constexpr int blocks_across = tile_side / block_pixels;
+    static_assert(blocks_across <= 64);  // a bit each
+
+    std::ptrdiff_t row_start(int y) const { return std::ptrdiff_t{tile_side} * (y - tile_.y0); }
+    void begin_block(Block& block, int column, int row) const;
+    Rect begun_blocks() const;  // within the tile
+
+    Tile tile_;
+    const BackdropPicture* behind_ = nullptr;
+    Rect touched_;
+    std::array<std::uint64_t, blocks_across> begun_{};  // a row of blocks each
+    hwy::AlignedFreeUniquePtr<Block[]> blocks_;
+    hwy::AlignedFreeUniquePtr<std::uint16_t[]> rgba_;
+    hwy::AlignedFreeUniquePtr<float[]> depth_;
+};
+
+}  // namespace render::native

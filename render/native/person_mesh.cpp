@@ -1,0 +1,91 @@
+#include "render/native/person_mesh.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <glm/gtc/packing.hpp>
+#include <map>
+#include <tuple>
+
+#include "render/native/vertices.h"
+#include "render/texture_layers.h"
+
+namespace render::native {
+
+namespace {
+
+std::vector<glm::u8vec4> halved(const std::vector<glm::u8vec4>& texels, int side) {
+    const int half = side / 2;
+    std::vector<glm::u8vec4> out;
+    out.reserve(static_cast<std::size_t>(half) * half);
+    for (int y = 0; y < half; ++y) {
+        for (int x = 0; x < half; ++x) {
+            const glm::u8vec4* at = &texels[static_cast<std::size_t>(2 * y) * side + 2 * x];
+            const glm::uvec4 sum =
+                glm::uvec4(at[0]) + glm::uvec4(at[1]) + glm::uvec4(at[side]) + glm::uvec4(at[side + 1]);
+            out.emplace_back((sum + 2u) / 4u);
+        }
+    }
+    return out;
+}
+
+std::vector<std::uint32_t> paint_numbers(const model::Mesh& mesh, std::vector<Paint>& paints) {
+    std::map<std::tuple<int, int, int, int>, std::uint32_t> known;
+    std::vector<std::uint32_t> numbers;
+    for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+        const glm::u8vec4 color = mesh.colors[v];
+        const auto [place, added] =
+            known.try_emplace({color.r, color.g, color.b, mesh.slots[v]}, static_cast<std::uint32_t>(paints.size()));
+        if (added) {
+            const glm::vec3 srgb = glm::vec3(color) / 255.0f;
+            paints.push_back({srgb * srgb, mesh.slots[v]});
+        }
+        numbers.push_back(place->second);
+    }
+    return numbers;
+}
+
+}  // namespace
+
+TextureLayers::TextureLayers(std::span<const model::Texture> textures) {
+    if (textures.empty()) return;
+    const int largest = layer_side(textures);
+    for (int side = largest; side > 0; side /= 2) {
+        first_.push_back(size_);
+        size_ += static_cast<std::size_t>(side) * side;
+    }
+    texels_.resize(size_ * textures.size());
+    std::uint32_t* to = texels_.data();
+    for (const model::Texture& texture : textures) {
+        std::vector<glm::u8vec4> texels = resample(texture, largest);
+        for (int side = largest; side > 0; side /= 2) {
+            std::memcpy(to, texels.data(), texels.size() * sizeof *to);
+            to += texels.size();
+            texels = halved(texels, side);
+        }
+    }
+}
+
+PersonMesh::PersonMesh(const figures::Figure& figure)
+    : poses(figure.poses),
+      vertex_count(static_cast<std::uint32_t>(figure.mesh->vertex_count())),
+      double_sided(figure.mesh->double_sided()),
+      textures(figure.mesh->textures) {
+    const model::Mesh& mesh = *figure.mesh;
+    const std::vector<std::uint32_t> paint_of = paint_numbers(mesh, paints);
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const std::uint32_t a = mesh.indices[i], b = mesh.indices[i + 2], c = mesh.indices[i + 1];
+        // As OpenGL has it, the last corner of the file's order says which texture.
+        const std::uint8_t texture = mesh.material_of(b).texture;
+        const std::uint8_t layer = texture == model::no_texture ? untextured : texture;
+        const bool one_paint = paint_of[a] == paint_of[b] && paint_of[a] == paint_of[c];
+        faces.push_back({{a, b, c}, {paint_of[a], paint_of[b], paint_of[c]}, layer, one_paint && layer == untextured});
+        for (int corner = 0; corner < 3; ++corner)
+            corners[corner].push_back(static_cast<std::int32_t>(faces.back().corners[corner]));
+    }
+    for (auto& list : corners) list.resize((list.size() + group - 1) / group * group);
+    if (mesh.textures.empty()) return;
+    for (const glm::vec2 uv : mesh.uvs) uvs.push_back(glm::unpackHalf2x16(glm::packHalf2x16(uv)));  // what GL is given
+}
+
+}  // namespace render::native

@@ -1,0 +1,59 @@
+// What drawing a person's triangles needs of their mesh, beyond where its vertices are: made once a character.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "figures/figure.h"
+#include "scene/palette.h"
+
+namespace render::native {
+
+// Square textures of one size, a power of two, with all their mipmaps. Four bytes a texel: sRGB, and alpha.
+class TextureLayers {
+public:
+    TextureLayers() = default;
+    explicit TextureLayers(std::span<const model::Texture> textures);
+
+    int levels() const { return static_cast<int>(first_.size()); }
+    int side(int level) const { return 1 << (levels() - 1 - level); }  // [texels]
+    const std::uint32_t* texels(int layer, int level) const { return texels_.data() + layer * size_ + first_[level]; }
+
+private:
+    std::vector<std::uint32_t> texels_;
+    std::vector<std::size_t> first_;  // of a level, within a layer
+    std::size_t size_ = 0;            // [texels] of a layer with all levels
+};
+
+// A colour that vertices have, before the person's own is multiplied in.
+struct Paint {
+    glm::vec3 color;  // linear
+    model::Slot slot;
+};
+
+inline constexpr std::uint8_t untextured = 255;
+
+struct Face {
+    std::array<std::uint32_t, 3> corners;  // clockwise as seen from outside
+    std::array<std::uint32_t, 3> paints;
+    std::uint8_t layer;  // or untextured
+    bool plain;          // of one paint, without texture
+};
+
+struct PersonMesh {
+    const motion::PoseTable* poses;
+    std::uint32_t vertex_count;
+    bool double_sided;
+    std::vector<Face> faces;
+    std::array<std::vector<std::int32_t>, 3> corners;  // of faces; filled up with vertex 0 to whole groups
+    std::vector<Paint> paints;                         // no two alike
+    std::vector<glm::vec2> uvs;                        // one a vertex; none without textures
+    TextureLayers textures;
+
+    explicit PersonMesh(const figures::Figure& figure);  // refers to the figure's poses
+};
+
+}  // namespace render::native

@@ -1,0 +1,64 @@
+// A person's vertices, placed, lit and snapped to the grid on which triangles are filled; and which of their triangles
+// face the viewer.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "render/native/person_mesh.h"
+
+namespace render::native {
+
+inline constexpr int group = 16;             // vertices or triangles that are worked on together
+inline constexpr int grid_per_sample = 16;   // the grid that vertices are snapped to: this many steps a sample
+inline constexpr int reach_on_grid = 32000;  // who is wider or higher [grid steps] isn't drawn by 32-bit edges
+
+// One affine form of a vertex' packed position (x, y, z as they are stored).
+struct Form {
+    float x, y, z, one;
+};
+
+// From a pose's packed vertices to the picture.
+struct Placement {
+    Form across, down;         // times depth: [grid steps m] from the picture's corner
+    Form depth;                // [m] along the view
+    Form away[3];              // from the camera to the vertex, turned into the model's axes [m]
+    float center_x, center_y;  // [grid steps]
+    float sun[3];              // towards the sun, turned into the model's axes
+};
+
+// Linear: on a normal n, level + n.y * slope + max(n . sun, 0) * sun.
+struct Daylight {
+    float level[3], slope[3], sun[3];
+    glm::vec3 to_sun;  // unit, world
+};
+
+// A vertex as the filler reads it.
+struct alignas(16) LitVertex {
+    float light[3];
+    float depth;  // near_plane / view depth
+};
+
+// [grid steps] from the picture's corner; empty: min > max.
+struct Extent {
+    std::int32_t min_x, min_y, max_x, max_y;
+};
+
+// Lights the vertices, and places them where `across` and `down` say. All three outputs have room for whole groups.
+// `double_sided`: normals that face away are flipped.
+Extent place_vertices(const Placement& placement, const Daylight& daylight, std::span<const motion::PosedVertex> posed,
+                      bool double_sided, LitVertex* lit, std::int32_t* across, std::int32_t* down);
+
+// Triangles that may hit a sample, in the mesh's order: x in the low half, y in the high one, signed [grid steps] from
+// the person's origin.
+struct FacingTriangles {
+    std::uint32_t count;
+    std::uint32_t* corners[3];  // clockwise on the screen
+    std::uint32_t* face;        // into the mesh's; from_behind: seen from its other side, corners 1 and 2 swapped
+};
+inline constexpr std::uint32_t from_behind = 1u << 31;
+
+// `packed`: the vertices' places, as above. `to` has room for all faces and a group more; sets its count.
+void find_facing(const PersonMesh& mesh, const std::uint32_t* packed, FacingTriangles& to);
+
+}  // namespace render::native
