@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "apps/point_cache.h"
-#include "figures/representation.h"
+#include "figures/way.h"
 #include "model/mesh.h"
 #include "motion/pose_table.h"
 #include "pointsample/point_model.h"

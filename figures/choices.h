@@ -1,9 +1,11 @@
 // Which level a person of a character is drawn at: the cheapest of all that serve their demand.
 #pragma once
 
-#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
 
-#include "figures/representation.h"
+#include "figures/way.h"
 
 namespace figures {
 

@@ -46,9 +46,16 @@ std::vector<Level> point_levels(const Figure& figure) {
 }
 
 std::vector<Level> native_point_levels(const Figure& figure) {
-    std::vector<Level> levels = point_levels(figure);
-    for (Level& level : levels) {
-        level.first = 0;
+    const auto all = static_cast<std::uint32_t>(figure.poses->point_count);
+    std::vector<std::uint32_t> counts = prefixes(all);
+    std::erase_if(counts, [](std::uint32_t count) { return count < fewest_points; });
+    if (all > 0 && (counts.empty() || counts.back() < all)) counts.push_back(all);
+    std::vector<Level> levels;
+    for (const std::uint32_t count : counts) {
+        Level& level = levels.emplace_back();
+        level.work[sfsm::WorkKind::point] = count;
+        level.reach = static_cast<float>(count);
+        level.count = count;
         level.by_ones = true;
     }
     return levels;

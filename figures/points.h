@@ -18,7 +18,8 @@ constexpr double point_outline_px(double splat_size, double silhouette) {
 
 inline constexpr Representation points{"points", false, point_levels, point_outline_px};
 
-// The same points with coverage: any number of them is drawn, from everybody's own first on.
+// The same points with coverage: any number of them is drawn, always from the first on. Its levels only say up to how
+// many points a person is drawn so; the last is all of the model.
 std::vector<Level> native_point_levels(const Figure& figure);
 
 inline constexpr Representation native_points{"points", false, native_point_levels, point_outline_px};

@@ -1,4 +1,5 @@
-// The ways a person can be drawn. Whoever chooses, forecasts or draws goes through the list and knows none by name.
+// What a way to draw a person is. Whoever chooses, forecasts or draws goes through a list of them (figures/way.h) and
+// knows none by name.
 //
 // What a person needs is their *demand*: the number of samples that their surface takes if they are to lie about S
 // pixels apart,
@@ -6,9 +7,7 @@
 // It grows without bound as S goes to 0, where only what has the artist's own shape will do.
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <span>
 #include <string_view>
 #include <vector>
 
@@ -23,17 +22,21 @@ struct Level {
     float reach = 0;  // the greatest demand that it serves; infinite for the artist's own shape
     // What drawers are handed: which of the representation's elements (corners of triangles, points) are drawn.
     std::uint32_t first = 0, count = 0;
-    bool by_ones = false;  // any number of them up to `count` can be drawn, the last in part
+    bool by_ones = false;  // points, of which any number up to `count` can be drawn, the last in part
 };
 
 // What of a level is drawn of somebody.
 struct Part {
-    std::uint32_t count = 0;
-    float last_share = 1;  // of the last of them, (0, 1]
+    std::uint32_t count = 0;  // of its elements
+    float last_share = 1;     // of the last of them, (0, 1]
     sfsm::Work work;
 };
 
-// For a demand > 0.
+// Of fewer points none may show.
+inline constexpr std::uint32_t fewest_points = 4;
+
+// For a demand >= 0: all of the level or, where it is drawn by ones, as many as are asked for, but at least
+// fewest_points and at most all.
 Part part_of(const Level& level, float demand);
 
 struct Representation {
@@ -45,15 +48,5 @@ struct Representation {
     // square as large as theirs [px].
     double (*outline_px)(double splat_size, double silhouette) = nullptr;
 };
-
-// A way of drawing: by what device, and so as what, and what it is believed to cost.
-struct Way {
-    std::string_view name;
-    std::span<const Representation> representations;  // in the order in which they are drawn and numbered
-    std::array<double, sfsm::work_kinds> pieces;      // that one of each kind of work is believed to cost (sfsm/work.h)
-};
-
-const Way& by_opengl();
-const Way& natively();
 
 }  // namespace figures

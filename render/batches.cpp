@@ -17,8 +17,7 @@ void Batches::gather(const Frame& frame) {
         begin_[number + 1] += begin_[number];
         if (size == 0) continue;
         const Person& one = frame.people[somebody_[number]];
-        batches_.push_back(
-            {one.character, one.representation, one.first, one.count, one.pose, begin_[number], size});
+        batches_.push_back({one.character, one.representation, one.first, one.count, one.pose, begin_[number], size});
     }
     instances_.resize(frame.people.size());
     for (const Person& person : frame.people) instances_[begin_[person.batch]++] = person.instance;

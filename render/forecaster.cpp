@@ -35,7 +35,11 @@ float Forecaster::demand_of(int bin) {
 }
 
 Forecaster::Forecaster(std::vector<Kind> kinds, const figures::Way& way, float density)
-    : way_(&way), kinds_(std::move(kinds)), pixels_(kinds_.size()), people_by_demand_(kinds_.size()), choices_(kinds_.size()) {
+    : way_(&way),
+      kinds_(std::move(kinds)),
+      pixels_(kinds_.size()),
+      people_by_demand_(kinds_.size()),
+      choices_(kinds_.size()) {
     for (int bin = 0; bin < demand_bins; ++bin) {
         silhouettes_[bin] = 0.5 * std::sqrt(demand_of(bin) / density);
         for (std::size_t kind = 0; kind < kinds_.size(); ++kind)

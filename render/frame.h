@@ -28,13 +28,13 @@ struct Person {
     std::uint32_t first, count;    // of its elements: figures::Level's
     float last_share;              // of the last of them that is drawn, where a representation can: (0, 1]
     std::uint32_t pose;            // into the character's PoseTable
-    std::uint32_t batch;           // people of one number are alike in all but their instance and depth
+    std::uint32_t batch;           // people of one number are alike in all but instance, depth and points drawn by ones
     float depth;                   // [m] view depth of their middle, > 0
 };
 
 struct Frame {
     View view;
-    double splat_size = 0;  // S [px]
+    double splat_size = 0;            // S [px]
     std::vector<Person> people;       // in the crowd's order
     std::uint32_t batch_numbers = 0;  // Person::batch is below it; it rises with character, representation, level, pose
     sfsm::Work work;

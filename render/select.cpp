@@ -137,17 +137,16 @@ Selector::Candidate Selector::consider(std::size_t person, const sfsm::Decision&
     candidate.work = part.work;
     candidate.moved = due > last_tick;
     candidate.slowed = period > 1;
-    candidate.person = {
-        {view_.relative(placement.position), scale_of(person), snorm16(std::sin(placement.yaw)),
-         snorm16(std::cos(placement.yaw)), crowd_.palette[person]},
-        static_cast<std::uint32_t>(character),
-        representation,
-        level.first,
-        part.count,
-        part.last_share,
-        pose,
-        kinds_[character].first_batch + choice * static_cast<std::uint32_t>(poses.pose_count) + pose,
-        depth_[person]};
+    candidate.person = {{view_.relative(placement.position), scale_of(person), snorm16(std::sin(placement.yaw)),
+                         snorm16(std::cos(placement.yaw)), crowd_.palette[person]},
+                        static_cast<std::uint32_t>(character),
+                        representation,
+                        level.first,
+                        part.count,
+                        part.last_share,
+                        pose,
+                        kinds_[character].first_batch + choice * static_cast<std::uint32_t>(poses.pose_count) + pose,
+                        depth_[person]};
     return candidate;
 }
 

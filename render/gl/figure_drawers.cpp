@@ -1,7 +1,7 @@
 #include <array>
 #include <cassert>
 
-#include "figures/representation.h"
+#include "figures/way.h"
 #include "render/gl/figure_drawer.h"
 
 namespace render::gl {

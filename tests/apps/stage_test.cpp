@@ -46,7 +46,7 @@ void expect_belongs_together(const apps::Stage& stage) {
 TEST(Stage, KnowsEachOfItsCharacters) {
     const tests::Directory directory;
     const auto stage = apps::build_stage({tower(directory, 1), tower(directory, 20), tower(directory, 3)}, people, 1,
-                                         apps::PointCache(""));
+                                         apps::PointCache(""), figures::by_opengl());
     ASSERT_EQ(stage->meshes.size(), 3u);
     EXPECT_EQ(stage->meshes[1].triangle_count(), 240u);
     expect_belongs_together(*stage);
@@ -56,7 +56,7 @@ TEST(Stage, KnowsEachOfItsCharacters) {
 }
 
 TEST(Stage, HasTheBuiltInPersonWhereNoFileIsNamed) {
-    const auto stage = apps::build_stage({}, people, 1, apps::PointCache(""));
+    const auto stage = apps::build_stage({}, people, 1, apps::PointCache(""), figures::by_opengl());
     ASSERT_EQ(stage->meshes.size(), 1u);
     expect_belongs_together(*stage);
     EXPECT_TRUE(stage->cast[0].sits);

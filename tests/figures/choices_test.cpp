@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -25,35 +26,35 @@ struct Character {
     figures::Figure figure() const { return {&mesh, &poses, nullptr}; }
 };
 
-using Pieces = std::array<double, sfsm::work_kinds>;
-
-double cost_of(const Level& level, const Pieces& pieces) {
+double cost_of(const sfsm::Work& work, const figures::Way& way) {
     double cost = 0;
-    for (std::size_t kind = 0; kind < pieces.size(); ++kind)
-        cost += pieces[kind] * static_cast<double>(level.work.counts[kind]);
+    for (std::size_t kind = 0; kind < sfsm::work_kinds; ++kind)
+        cost += way.pieces[kind] * static_cast<double>(work.counts[kind]);
     return cost;
 }
 
-Pieces at_price(double of_a_point) {
-    Pieces pieces = figures::believed_pieces;
-    pieces[sfsm::index_of(sfsm::WorkKind::point)] = of_a_point;
-    return pieces;
+figures::Way at_price(double of_a_point) {
+    figures::Way way = figures::by_opengl();
+    way.pieces[sfsm::index_of(sfsm::WorkKind::point)] = of_a_point;
+    return way;
 }
+
+const figures::Way* const ways[] = {&figures::by_opengl(), &figures::natively()};
 
 TEST(Choices, AreTheCheapestThatServe) {
     for (const auto& [triangles, points] : {std::pair{1300, 650}, {12, 6}, {4, 64}, {1, 0}, {20000, 300}}) {
         const Character character(static_cast<std::size_t>(triangles), points);
         for (const double price : {0.5, 1.0, 2.0, 7.0}) {
-            const Pieces pieces = at_price(price);
-            const Choices choices(character.figure(), pieces);
+            const figures::Way way = at_price(price);
+            const Choices choices(character.figure(), way);
             for (float demand = 0.01f; demand < 1e6f; demand *= 1.07f) {
                 double least = std::numeric_limits<double>::infinity();
-                for (const figures::Representation& representation : figures::representations())
+                for (const figures::Representation& representation : way.representations)
                     for (const Level& level : representation.levels(character.figure()))
-                        if (demand <= level.reach) least = std::min(least, cost_of(level, pieces));
+                        if (demand <= level.reach) least = std::min(least, cost_of(level.work, way));
                 const Level& chosen = choices.all()[choices.at(demand)].level;
                 EXPECT_GE(chosen.reach, demand);
-                EXPECT_EQ(cost_of(chosen, pieces), least) << triangles << " triangles, demand " << demand;
+                EXPECT_EQ(cost_of(chosen.work, way), least) << triangles << " triangles, demand " << demand;
             }
         }
     }
@@ -61,7 +62,7 @@ TEST(Choices, AreTheCheapestThatServe) {
 
 TEST(Choices, ServeExactlyAsMuchAsTheyReach) {
     const Character character(5000, 2500);
-    const Choices choices(character.figure(), figures::believed_pieces);
+    const Choices choices(character.figure(), figures::by_opengl());
     for (std::uint32_t i = 0; i < choices.all().size(); ++i) {
         const float reach = choices.all()[i].level.reach;
         EXPECT_EQ(choices.at(reach), i) << "reach " << reach;
@@ -75,22 +76,22 @@ TEST(Choices, OfEqualCostAreTheLaterRepresentations) {
     const Character character(64, 64);  // 32 points cost what the triangles do
     const Choices choices(character.figure(), at_price(2));
     EXPECT_EQ(choices.all()[choices.at(30)].level.count, 32u);
-    EXPECT_TRUE(figures::representations()[choices.all()[choices.at(33)].representation].is_mesh);
+    EXPECT_TRUE(figures::by_opengl().representations[choices.all()[choices.at(33)].representation].is_mesh);
 }
 
 TEST(Choices, ServeAnyDemandByTheArtistsOwnShape) {
     const Character character(100, 64);
-    const Choices choices(character.figure(), figures::believed_pieces);
+    const Choices choices(character.figure(), figures::by_opengl());
     for (const float demand : {1e9f, std::numeric_limits<float>::infinity()})
         EXPECT_EQ(choices.at(demand), choices.exact());
     const figures::Choice& exact = choices.all()[choices.exact()];
-    EXPECT_TRUE(figures::representations()[exact.representation].is_mesh);
+    EXPECT_TRUE(figures::by_opengl().representations[exact.representation].is_mesh);
     EXPECT_EQ(exact.level.count, 300u);
 }
 
 TEST(Choices, AreInDrawingOrderAndEachIsOfUse) {
     const Character character(5000, 2500);
-    const Choices choices(character.figure(), figures::believed_pieces);
+    const Choices choices(character.figure(), figures::by_opengl());
     std::set<std::uint32_t> used;
     for (float demand = 0.5f; demand < 1e5f; demand *= 1.01f) used.insert(choices.at(demand));
     EXPECT_EQ(used.size(), choices.all().size());
@@ -100,32 +101,106 @@ TEST(Choices, AreInDrawingOrderAndEachIsOfUse) {
 
 TEST(Representations, LevelsRiseInReachAndInWork) {
     const Character character(5000, 2500);
-    bool some_exact = false;
-    for (const figures::Representation& representation : figures::representations()) {
-        const std::vector<Level> levels = representation.levels(character.figure());
-        ASSERT_FALSE(levels.empty()) << representation.name;
-        for (std::size_t i = 1; i < levels.size(); ++i) {
-            EXPECT_GT(levels[i].reach, levels[i - 1].reach) << representation.name;
-            EXPECT_GT(cost_of(levels[i], figures::believed_pieces), cost_of(levels[i - 1], figures::believed_pieces));
+    for (const figures::Way* way : ways) {
+        bool some_exact = false;
+        for (const figures::Representation& representation : way->representations) {
+            const std::vector<Level> levels = representation.levels(character.figure());
+            ASSERT_FALSE(levels.empty()) << way->name << ' ' << representation.name;
+            for (std::size_t i = 1; i < levels.size(); ++i) {
+                EXPECT_GT(levels[i].reach, levels[i - 1].reach) << way->name << ' ' << representation.name;
+                EXPECT_GT(cost_of(levels[i].work, *way), cost_of(levels[i - 1].work, *way));
+            }
+            some_exact |= std::isinf(levels.back().reach);
         }
-        some_exact |= std::isinf(levels.back().reach);
+        EXPECT_TRUE(some_exact) << way->name << ": somebody may come as near as they like";
     }
-    EXPECT_TRUE(some_exact) << "somebody may come as near as they like";
 }
 
 TEST(Representations, LoseNoLessAsSGrowsAndNeverMoreThanHalfAPerson) {
-    for (const figures::Representation& representation : figures::representations()) {
-        for (const double silhouette : {0.5, 4.0, 60.0}) {
-            double before = 0;
-            for (double size = 0; size <= 32; size += 0.25) {
-                const double loss = representation.outline_px(size, silhouette);
-                EXPECT_GE(loss, before) << representation.name;
-                EXPECT_LE(loss, silhouette / 2) << representation.name;
-                before = loss;
+    for (const figures::Way* way : ways) {
+        for (const figures::Representation& representation : way->representations) {
+            for (const double silhouette : {0.2, 0.5, 4.0, 60.0}) {
+                double before = 0;
+                for (double size = 0; size <= 32; size += 0.25) {
+                    const double loss = representation.outline_px(size, silhouette);
+                    EXPECT_GE(loss, before) << way->name << ' ' << representation.name;
+                    EXPECT_LE(loss, silhouette / 2) << way->name << ' ' << representation.name;
+                    before = loss;
+                }
+                if (representation.is_mesh) {
+                    EXPECT_EQ(representation.outline_px(0, silhouette), 0) << way->name << ' ' << representation.name;
+                }
             }
-            if (representation.is_mesh) {
-                EXPECT_EQ(representation.outline_px(0, silhouette), 0) << representation.name;
+        }
+    }
+}
+
+// Natively any number of points is drawn.
+
+// The points that a demand gets, the last in part; infinite for triangles.
+double samples_at(const Choices& choices, float demand) {
+    const figures::Choice& choice = choices.all()[choices.at(demand)];
+    if (figures::natively().representations[choice.representation].is_mesh)
+        return std::numeric_limits<double>::infinity();
+    const figures::Part part = figures::part_of(choice.level, demand);
+    return part.count - 1.0 + static_cast<double>(part.last_share);
+}
+
+TEST(Part, OfPointsByOnesIsAsManyAsAreAskedFor) {
+    const Character character(5000, 2500);
+    for (const Level& level : figures::natively().representations[1].levels(character.figure())) {
+        for (float demand = 0.01f; demand < 4000; demand *= 1.03f) {
+            const figures::Part part = figures::part_of(level, demand);
+            const float asked = std::clamp(demand, 4.0f, static_cast<float>(level.count));
+            EXPECT_FLOAT_EQ(static_cast<float>(part.count - 1) + part.last_share, asked);
+            EXPECT_GT(part.last_share, 0);
+            EXPECT_LE(part.last_share, 1);
+            EXPECT_LE(part.count, level.count);
+            sfsm::Work work;
+            work[sfsm::WorkKind::point] = part.count;
+            EXPECT_EQ(part.work, work) << "demand " << demand;
+        }
+    }
+}
+
+TEST(Part, OfAnyOtherLevelIsAllOfIt) {
+    const Character character(5000, 2500);
+    for (const figures::Representation& representation : figures::by_opengl().representations) {
+        for (const Level& level : representation.levels(character.figure())) {
+            for (const float demand : {0.0f, 0.3f, 5.5f, 1e6f}) {
+                const figures::Part part = figures::part_of(level, demand);
+                EXPECT_EQ(part.count, level.count) << representation.name;
+                EXPECT_EQ(part.last_share, 1) << representation.name;
+                EXPECT_EQ(part.work, level.work) << representation.name;
             }
+        }
+    }
+}
+
+TEST(Part, GrowsWithDemandUpToTheWholeModelAndThenToTriangles) {
+    for (const int points : {4, 7, 64, 100, 2500}) {
+        const Character character(20000, points);
+        const Choices choices(character.figure(), figures::natively());
+        double before = 0;
+        for (float demand = 0.01f; demand < 1e5f; demand *= 1.005f) {
+            const double samples = samples_at(choices, demand);
+            EXPECT_GE(samples, before) << points << " points, demand " << demand;
+            before = samples;
+        }
+        EXPECT_EQ(samples_at(choices, static_cast<float>(points)), points);
+        EXPECT_TRUE(std::isinf(before));
+    }
+}
+
+// Where few points cost as much as few triangles, too.
+TEST(Part, IsNeverDearerThanTriangles) {
+    for (const std::size_t triangles : {1u, 12u, 100u, 1300u}) {
+        const Character character(triangles, 4096);
+        const Choices choices(character.figure(), figures::natively());
+        const double price = cost_of(choices.all()[choices.exact()].level.work, figures::natively());
+        for (float demand = 0.01f; demand < 1e5f; demand *= 1.05f) {
+            const Level& level = choices.all()[choices.at(demand)].level;
+            EXPECT_LE(cost_of(figures::part_of(level, demand).work, figures::natively()), price) << triangles;
         }
     }
 }

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "figures/representation.h"
+#include "figures/way.h"
 
 namespace reference {
 
@@ -22,7 +22,7 @@ namespace {
 
 // The level that a person of so many points is drawn at; of none, triangles.
 std::pair<std::uint32_t, figures::Level> level_of(const figures::Figure& figure, std::size_t points) {
-    const auto all = figures::representations();
+    const auto all = figures::by_opengl().representations;
     for (std::uint32_t i = 0; i < all.size(); ++i) {
         for (const figures::Level& level : all[i].levels(figure))
             if (points == 0 ? all[i].is_mesh : !all[i].is_mesh && level.count == points) return {i, level};
@@ -50,9 +50,9 @@ render::Frame frame_of(std::span<const Person> people, std::span<const Model* co
         const auto character = static_cast<std::uint32_t>(of - models.begin());
         const auto pose = static_cast<std::uint32_t>((*of)->poses.pose_at(person.slot, person.tick));
         const auto [representation, level] = level_of((*of)->product(), person.points);
-        frame.batches.push_back({character, representation, level.first, level.count, pose,
-                                 static_cast<std::uint32_t>(frame.instances.size()), 1});
-        frame.instances.push_back(instance);
+        const std::uint32_t batch = frame.batch_numbers++;
+        frame.people.push_back({instance, character, representation, level.first, level.count, 1.0f, pose, batch,
+                                view.depth(instance.position)});
     }
     return frame;
 }

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "render/select.h"
-#include "tests/render/batches.h"
+#include "tests/render/drawn_points.h"
 #include "tests/render/lone_person.h"
 #include "tests/render/small_scene.h"
 
@@ -104,24 +104,24 @@ TEST(LonePerson, IsDrawnWholeByWhoeverStandsInThem) {
             EXPECT_EQ(step.work[sfsm::WorkKind::point], 0) << "S = " << step.setting;
         }
         const render::Frame& selection = selector.select({State::points, 10, 32}, -1);
-        ASSERT_EQ(selection.batches.size(), 1u);
-        EXPECT_EQ(tests::points_each(selection.batches[0]), 0u) << "millimetres away nothing but triangles will do";
+        ASSERT_EQ(selection.people.size(), 1u);
+        EXPECT_EQ(tests::points_of(selection.people[0]), 0u) << "millimetres away nothing but triangles will do";
     }
 }
 
-render::SelectOptions at_price(double of_a_point) {
-    render::SelectOptions options;
-    options.pieces[sfsm::index_of(sfsm::WorkKind::point)] = of_a_point;
-    return options;
+figures::Way at_price(double of_a_point) {
+    figures::Way way = figures::by_opengl();
+    way.pieces[sfsm::index_of(sfsm::WorkKind::point)] = of_a_point;
+    return way;
 }
 
 // The number of points that a person has at view depth `depth` under S.
 std::uint32_t points_at(const tests::LonePeople& lone, double depth, double splat_size,
-                        render::SelectOptions options = {}) {
-    Selector selector(lone.crowd, lone.cast, lone.figures(), options);
+                        const figures::Way& way = figures::by_opengl()) {
+    Selector selector(lone.crowd, lone.cast, lone.figures(), {.way = &way});
     selector.survey(view_from({0, 0.9, depth}, {0, 0, -1}), 0);
     const render::Frame& selection = selector.select({State::points, 10, splat_size}, -1);
-    return selection.batches.size() == 1 ? tests::points_each(selection.batches[0]) : ~0u;
+    return selection.people.size() == 1 ? tests::points_of(selection.people[0], way) : ~0u;
 }
 
 TEST(LonePerson, HasTwoPointsHoweverSmall) {
@@ -197,17 +197,18 @@ TEST(LonePerson, StaysAsTheyWereUntilTheyAreDue) {
         for (std::int64_t tick = 500; tick < 700; ++tick) {
             selector.survey(view, tick);
             const render::Frame& selection = selector.select(decision, tick - 1);
-            ASSERT_EQ(selection.instances.size(), 1u);
+            ASSERT_EQ(selection.people.size(), 1u);
             const bool moved = selection.work[sfsm::WorkKind::motion_update] == 1;
             if (tick > 500 && !moved) {
-                EXPECT_EQ(std::memcmp(&last, &selection.instances[0], sizeof last), 0) << "tick " << tick;
-                EXPECT_EQ(last_pose, selection.batches[0].pose) << "tick " << tick;
+                EXPECT_EQ(std::memcmp(&last, &selection.people[0].instance, sizeof last), 0) << "tick " << tick;
+                EXPECT_EQ(last_pose, selection.people[0].pose) << "tick " << tick;
             }
             if (moved) {
                 // When they move, they are where and how they are at that very tick.
                 selector.survey(view, tick);
                 const render::Frame& now = selector.select({}, tick - 1);
-                EXPECT_EQ(std::memcmp(&selection.instances[0], &now.instances[0], sizeof last), 0) << "tick " << tick;
+                EXPECT_EQ(std::memcmp(&selection.people[0].instance, &now.people[0].instance, sizeof last), 0)
+                    << "tick " << tick;
                 selector.survey(view, tick);
                 if (moves > 1) {
                     EXPECT_NEAR(since, period, 1) << "a period changes as slowly as the depth";
@@ -217,8 +218,8 @@ TEST(LonePerson, StaysAsTheyWereUntilTheyAreDue) {
                 ++moves;
             }
             ++since;
-            last = selector.select(decision, tick - 1).instances[0];
-            last_pose = selector.select(decision, tick - 1).batches[0].pose;
+            last = selector.select(decision, tick - 1).people[0].instance;
+            last_pose = selector.select(decision, tick - 1).people[0].pose;
         }
         EXPECT_GT(moves, 10);
         EXPECT_LT(moves, 60);
@@ -248,10 +249,9 @@ TEST(Forecast, LossOfMotionIsTheMeasuredDisplacement) {
                 by.survey(view, tick);
                 std::map<float, double> found;
                 const render::Frame& selection = by.select(decision, tick - 1);
-                for (const render::Batch& batch : selection.batches)
-                    for (std::uint32_t i = 0; i < batch.instance_count; ++i)
-                        found[selection.instances[batch.first_instance + i].position.z] =
-                            static_cast<double>(rise) * std::min(batch.pose, poses - batch.pose) / 60;
+                for (const render::Person& person : selection.people)
+                    found[person.instance.position.z] =
+                        static_cast<double>(rise) * std::min(person.pose, poses - person.pose) / 60;
                 return found;
             };
             const std::map<float, double> old = heights(selector, {State::slowed, step.setting, 0});
@@ -289,12 +289,11 @@ TEST(Forecast, LossOfSplatsIsHalfASplatOrHalfThePerson) {
         double lost = 0;
         const Decision decision = step.setting == 0 ? Decision{} : Decision{State::points, 1000, step.setting};
         const render::Frame& selection = selector.select(decision, -1);
-        for (const render::Batch& batch : selection.batches) {
-            for (std::uint32_t i = 0; i < batch.instance_count && tests::points_each(batch) > 0; ++i) {
-                const double depth = -selection.instances[batch.first_instance + i].position.z;
-                const double silhouette = std::sqrt(area / 4) * height / (2 * std::tan(0.45) * depth);
-                lost += std::min(step.setting, silhouette) / 2;
-            }
+        for (const render::Person& person : selection.people) {
+            if (tests::points_of(person) == 0) continue;
+            const double depth = -person.instance.position.z;
+            const double silhouette = std::sqrt(area / 4) * height / (2 * std::tan(0.45) * depth);
+            lost += std::min(step.setting, silhouette) / 2;
         }
         constexpr double bin_width = 0.05;
         const double measured = lost / static_cast<double>(forecast.people);

@@ -8,8 +8,9 @@
 #include <set>
 #include <tuple>
 
+#include "render/batches.h"
 #include "sfsm/prices.h"
-#include "tests/render/batches.h"
+#include "tests/render/drawn_points.h"
 #include "tests/render/small_scene.h"
 
 namespace {
@@ -43,15 +44,15 @@ Frame select_once(const render::View& view, const Decision& decision, std::int64
 }
 
 bool same_bits(const Frame& a, const Frame& b) {
-    return a.instances.size() == b.instances.size() && a.batches.size() == b.batches.size() &&
-           std::memcmp(a.instances.data(), b.instances.data(), a.instances.size() * sizeof(render::Instance)) == 0 &&
-           std::memcmp(a.batches.data(), b.batches.data(), a.batches.size() * sizeof(render::Batch)) == 0 &&
+    static_assert(sizeof(render::Person) == sizeof(render::Instance) + 8 * 4, "no padding: bytes can be compared");
+    return a.people.size() == b.people.size() &&
+           std::memcmp(a.people.data(), b.people.data(), a.people.size() * sizeof(render::Person)) == 0 &&
            a.work == b.work;
 }
 
 // [pieces] What people's shapes are believed to cost.
-double shape_cost(const sfsm::Work& work) {
-    return sfsm::cost_of(sfsm::only_on<sfsm::WorkAxis::shape>(work), {0, figures::believed_pieces});
+double shape_cost(const sfsm::Work& work, const figures::Way& way = figures::by_opengl()) {
+    return sfsm::cost_of(sfsm::only_on<sfsm::WorkAxis::shape>(work), {0, way.pieces});
 }
 
 // [m] Where every `stride`-th vertex of a person is in the world.
@@ -85,8 +86,10 @@ TEST(Selection, NeverDropsSomeoneWhoShows) {
         const render::View view = view_of(preset);
         const Frame selection = select_once(view, {});
         std::set<std::tuple<float, float, float>> selected;
-        for (const render::Instance& i : selection.instances)
-            selected.insert({i.position.x, i.position.y, i.position.z});
+        for (const render::Person& person : selection.people) {
+            const glm::vec3& at = person.instance.position;
+            selected.insert({at.x, at.y, at.z});
+        }
         std::size_t showing = 0;
         for (std::size_t person = 0; person < small_scene().crowd.size(); ++person) {
             if (!some_vertex_shows(view, person, 100)) continue;
@@ -97,37 +100,47 @@ TEST(Selection, NeverDropsSomeoneWhoShows) {
         }
         EXPECT_GT(showing, 0u) << preset;
         // Balls around bodies are loose, but not so loose that culling is no use.
-        EXPECT_LT(static_cast<double>(selection.instances.size()), 1.3 * static_cast<double>(showing) + 20) << preset;
+        EXPECT_LT(static_cast<double>(selection.people.size()), 1.3 * static_cast<double>(showing) + 20) << preset;
     }
 }
 
-TEST(Selection, BatchesPartitionTheInstances) {
-    for (const double splat_size : {0.0, 1.0, 4.0}) {
-        const Frame selection = select_once(view_of("still"), splat_size > 0 ? points_of(splat_size) : Decision{});
-        std::uint32_t next = 0;
-        for (const render::Batch& batch : selection.batches) {
-            EXPECT_EQ(batch.first_instance, next);
-            EXPECT_GT(batch.instance_count, 0u);
-            next += batch.instance_count;
-        }
-        EXPECT_EQ(next, selection.instances.size());
-    }
-}
-
-TEST(Selection, WorkIsTheSumOverItsBatches) {
+TEST(Selection, WorkIsTheSumOverItsPeople) {
     const Frame selection = select_once(view_of("still"), points_of(2));
-    std::int64_t people = 0, triangles = 0, points = 0;
-    for (const render::Batch& batch : selection.batches) {
-        people += batch.instance_count;
-        points += std::int64_t{tests::points_each(batch)} * batch.instance_count;
-        if (figures::representations()[batch.representation].is_mesh)
-            triangles += std::int64_t{batch.instance_count} *
-                         static_cast<std::int64_t>(small_scene().person.mesh.triangle_count());
+    std::int64_t triangles = 0, points = 0;
+    for (const render::Person& person : selection.people) {
+        points += tests::points_of(person);
+        if (tests::points_of(person) == 0)
+            triangles += static_cast<std::int64_t>(small_scene().person.mesh.triangle_count());
     }
-    EXPECT_EQ(selection.work[sfsm::WorkKind::person], people);
+    EXPECT_EQ(selection.work[sfsm::WorkKind::person], std::ssize(selection.people));
     EXPECT_EQ(selection.work[sfsm::WorkKind::triangle], triangles);
     EXPECT_EQ(selection.work[sfsm::WorkKind::point], points);
     EXPECT_GT(points, 0);
+}
+
+TEST(Batches, PartThePeopleByHowTheyAreDrawn) {
+    render::Batches batches;
+    for (const double splat_size : {0.0, 1.0, 4.0}) {
+        const Frame frame = select_once(view_of("still"), splat_size > 0 ? points_of(splat_size) : Decision{});
+        batches.gather(frame);
+        std::vector<const render::Person*> people;  // as they should be gathered
+        for (const render::Person& person : frame.people) people.push_back(&person);
+        std::ranges::stable_sort(people, {}, &render::Person::batch);
+        ASSERT_EQ(batches.instances().size(), people.size());
+        std::uint32_t next = 0;
+        for (const render::Batch& batch : batches.all()) {
+            ASSERT_EQ(batch.first_instance, next);
+            ASSERT_GT(batch.instance_count, 0u);
+            for (; next < batch.first_instance + batch.instance_count; ++next) {
+                const render::Person& person = *people[next];
+                EXPECT_EQ(std::memcmp(&batches.instances()[next], &person.instance, sizeof person.instance), 0);
+                EXPECT_EQ(std::tie(batch.character, batch.representation, batch.first, batch.count, batch.pose),
+                          std::tie(person.character, person.representation, person.first, person.count, person.pose));
+            }
+        }
+        EXPECT_EQ(next, people.size());
+        EXPECT_LT(batches.all().size(), people.size()) << "nobody shares a pose";
+    }
 }
 
 // Whatever was asked for: a frame in which nobody is a point is not of state 2, and one in which everybody moves in
@@ -201,7 +214,7 @@ TEST(Survey, OfNobodyCostsAndLosesNothing) {
         EXPECT_EQ(step.loss_px, 0);
     }
     const Frame& selection = selector.select(points_of(4), 99);
-    EXPECT_TRUE(selection.batches.empty() && selection.instances.empty());
+    EXPECT_TRUE(selection.people.empty());
     EXPECT_EQ(selection.work, sfsm::Work{});
 }
 
@@ -249,8 +262,8 @@ TEST(Selection, RangeReachesTheFarthestPersonInView) {
         Selector selector(small_scene().crowd, small_scene().cast, small_scene().figures());
         const float range = selector.survey(view, 0).range;
         float farthest = 0;
-        for (const render::Instance& instance : selector.select({}, -1).instances)
-            farthest = std::max(farthest, view.depth(instance.position));
+        for (const render::Person& person : selector.select({}, -1).people)
+            farthest = std::max(farthest, view.depth(person.instance.position));
         constexpr float half_a_body = 1.0f;  // [m] depth is that of a person's middle, an instance that of the feet
         EXPECT_NEAR(range, farthest, half_a_body) << preset;
     }
@@ -366,6 +379,75 @@ TEST(Forecast, WorkShrinksAndLossGrowsAlongTheSteps) {
             EXPECT_LE(forecast.motion[i].work[sfsm::WorkKind::motion_update],
                       forecast.motion[i - 1].work[sfsm::WorkKind::motion_update]);
             EXPECT_GE(forecast.motion[i].loss_px, forecast.motion[i - 1].loss_px);
+        }
+    }
+}
+
+// Natively a person has any number of points, the last of them in part, and a model has more of them.
+
+Selector native_selector() {
+    static const tests::SmallScene scene(3000, 3.0);
+    return {scene.crowd, scene.cast, scene.figures(), {.way = &figures::natively()}};
+}
+
+TEST(NativeSelection, WorkIsTheSumOverItsPeople) {
+    Selector selector = native_selector();
+    for (const double splat_size : {0.0, 0.5, 1.0, 2.7, 9.0}) {
+        const Frame& frame =
+            select_at(selector, view_of("still"), splat_size > 0 ? points_of(splat_size) : Decision{}, 100);
+        std::int64_t triangles = 0, points = 0;
+        for (const render::Person& person : frame.people) {
+            EXPECT_GT(person.last_share, 0);
+            EXPECT_LE(person.last_share, 1);
+            EXPECT_GT(person.depth, 0);
+            const std::uint32_t drawn = tests::points_of(person, figures::natively());
+            points += drawn;
+            if (drawn == 0) triangles += static_cast<std::int64_t>(small_scene().person.mesh.triangle_count());
+        }
+        EXPECT_EQ(frame.work[sfsm::WorkKind::person], std::ssize(frame.people));
+        EXPECT_EQ(frame.work[sfsm::WorkKind::triangle], triangles) << "S = " << splat_size;
+        EXPECT_EQ(frame.work[sfsm::WorkKind::point], points) << "S = " << splat_size;
+        EXPECT_EQ(points > 0, splat_size > 0);
+    }
+}
+
+TEST(NativeSelection, StateFollowsFromWhatWasDrawn) {
+    const double far = 2 * 300;  // [m] beyond everybody
+    Selector selector = native_selector();
+    const auto state = [&](const char* preset, const Decision& decision) {
+        return select_at(selector, view_of(preset), decision, 100).state;
+    };
+    EXPECT_EQ(state("still", {}), State::original);
+    EXPECT_EQ(state("still", {State::slowed, 5, 0}), State::slowed);
+    EXPECT_EQ(state("still", points_of(4, far)), State::points);
+    EXPECT_EQ(state("close", points_of(0.01, far)), State::original) << "all need more points than a model has";
+    EXPECT_EQ(state("close", points_of(0.01, 1)), State::slowed);
+}
+
+TEST(NativeSelection, LargerSplatsNeverCostMore) {
+    Selector selector = native_selector();
+    const auto price = [&](const Decision& decision) {
+        return shape_cost(select_at(selector, view_of("still"), decision, 100).work, figures::natively());
+    };
+    double last = price({});
+    for (double splat_size = 0.25; splat_size <= 32; splat_size *= 1.1) {
+        const double now = price(points_of(splat_size));
+        EXPECT_LE(now, last) << "S = " << splat_size;
+        last = now;
+    }
+}
+
+TEST(NativeForecast, CountsWhatSelectionDraws) {
+    constexpr double error = 0.03;  // bins of demand are sixteenths of an octave
+    const auto one = static_cast<double>(small_scene().person.mesh.triangle_count());  // somebody in the next bin
+    Selector selector = native_selector();
+    for (const char* preset : {"still", "close", "medium", "remote"}) {
+        const sfsm::Forecast forecast = selector.survey(view_of(preset), 100).forecast;
+        for (const sfsm::Step& step : forecast.shapes) {
+            const Decision decision = step.setting == 0 ? Decision{} : points_of(step.setting);
+            const double price = shape_cost(selector.select(decision, 99).work, figures::natively());
+            const double foreseen = shape_cost(step.work, figures::natively());
+            EXPECT_NEAR(foreseen, price, error * price + one) << preset << ", S = " << step.setting;
         }
     }
 }

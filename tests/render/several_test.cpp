@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "render/select.h"
-#include "tests/render/batches.h"
+#include "tests/render/drawn_points.h"
 #include "tests/render/lone_person.h"
 
 namespace {
@@ -74,12 +74,10 @@ struct Together {
 using Drawn = std::multiset<std::tuple<std::size_t, std::uint32_t, std::uint32_t, std::string>>;
 
 void add(Drawn& drawn, std::size_t first_character, const render::Frame& selection) {
-    for (const render::Batch& batch : selection.batches) {
-        for (std::uint32_t i = 0; i < batch.instance_count; ++i) {
-            std::string bytes(sizeof(render::Instance), '\0');
-            std::memcpy(bytes.data(), &selection.instances[batch.first_instance + i], bytes.size());
-            drawn.insert({first_character + batch.character, batch.pose, tests::points_each(batch), bytes});
-        }
+    for (const render::Person& person : selection.people) {
+        std::string bytes(sizeof person.instance, '\0');
+        std::memcpy(bytes.data(), &person.instance, bytes.size());
+        drawn.insert({first_character + person.character, person.pose, tests::points_of(person), bytes});
     }
 }
 
@@ -180,8 +178,8 @@ TEST(Units, OfAModelChangeNothingThatIsSeen) {
         for (std::size_t i = 0; i < expected.motion.size(); ++i)
             EXPECT_NEAR(found.motion[i].loss_px, expected.motion[i].loss_px, bin_edge * expected.motion[i].loss_px);
         const render::Frame &fine = one.select({}, 99), &same = two.select({}, 99);
-        ASSERT_EQ(same.batches.size(), fine.batches.size());
-        for (std::size_t i = 0; i < fine.batches.size(); ++i) EXPECT_EQ(same.batches[i].pose, fine.batches[i].pose);
+        ASSERT_EQ(same.people.size(), fine.people.size());
+        for (std::size_t i = 0; i < fine.people.size(); ++i) EXPECT_EQ(same.people[i].pose, fine.people[i].pose);
     }
 }
 

@@ -23,10 +23,11 @@ struct SmallScene {
     std::vector<motion::PoseTable> poses;
     scene::Crowd crowd;
 
-    explicit SmallScene(std::int64_t people) {
+    // The person's model has so many points for each of its triangles.
+    explicit SmallScene(std::int64_t people, double points_each = 0.5) {
         const scene::Casting casting = scene::cast(person);
         pointsample::SampleOptions options;
-        options.count = person.mesh.triangle_count() / 2;
+        options.count = static_cast<std::size_t>(points_each * static_cast<double>(person.mesh.triangle_count()));
         points = pointsample::sample(person.mesh, pointsample::spread_poses(person, {}, 1), options);
         poses.push_back(motion::bake_poses(person, casting.clips, points.surface, std::size_t{1} << 26));
         cast.push_back(casting.member);
