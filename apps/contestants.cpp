@@ -20,7 +20,9 @@ std::vector<sim::Contestant> contestants() {
                     [](const sim::Course& course) -> Controllers { return std::make_unique<sim::Oracle>(course); },
                     false});
     for (const std::string_view name : sfsm::law_names()) {
-        laws.push_back({std::string(name), [=](const sim::Course&) { return sfsm::make_controller(name); }});
+        laws.push_back({std::string(name), [=](const sim::Course& course) {
+                            return sfsm::make_controller(name, course.scenario.drawing);
+                        }});
     }
     for (const std::string_view name : sfsm::rival_names()) {
         laws.push_back({std::string(name), [=](const sim::Course&) { return sfsm::make_rival(name); }});

@@ -40,7 +40,7 @@ void verify(const std::string& path) {
     }
     required(trace, path, "delay");
     required(trace, path, "law");
-    const auto law = law_of(trace, false).make({});
+    const auto law = make_law(law_of(trace, false), sfsm::trace_drawing(trace));
     const std::vector<sfsm::Replayed> replayed = sfsm::replay(*law, trace.rows, sfsm::trace_delay(trace));
     const auto difference = sfsm::first_difference(trace.rows, replayed);
     if (difference) {
@@ -56,7 +56,8 @@ void fit(const ReplayOptions& options) {
     std::optional<OutputFile> json;
     if (!options.json.empty()) json.emplace(options.json);
     const sfsm::Trace trace = read_own_trace(options.trace);
-    const auto fitted = made_of(options.trace, [&] { return sfsm::simulate::fit_costs(trace.rows); });
+    const auto fitted =
+        made_of(options.trace, [&] { return sfsm::simulate::fit_costs(trace.rows, sfsm::trace_drawing(trace)); });
     if (json) {
         json->stream() << fit_json(fitted).dump(2) << '\n';
         json->commit();

@@ -9,8 +9,15 @@ namespace apps {
 
 namespace sim = sfsm::simulate;
 
-Rerun rerun_open(const sim::Contestant& law, const std::vector<sfsm::TraceRow>& recorded, int delay) {
-    const std::unique_ptr<sfsm::Controller> controller = law.make({});
+std::unique_ptr<sfsm::Controller> make_law(const sim::Contestant& law, sfsm::Drawing drawing) {
+    sim::Course nowhere;
+    nowhere.scenario.drawing = drawing;
+    return law.make(nowhere);
+}
+
+Rerun rerun_open(const sim::Contestant& law, const std::vector<sfsm::TraceRow>& recorded, int delay,
+                 sfsm::Drawing drawing) {
+    const std::unique_ptr<sfsm::Controller> controller = make_law(law, drawing);
     const std::vector<sfsm::Replayed> replayed = sfsm::replay(*controller, recorded, delay);
     Rerun rerun{law.name, {}, {}};
     rerun.rows.reserve(recorded.size());

@@ -2,7 +2,7 @@
 // (closed).
 #pragma once
 
-#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,7 +21,11 @@ struct Rerun {
 };
 
 // Each recorded time is taken for the time of the law's own decision. `law` is none that looks ahead.
-Rerun rerun_open(const sfsm::simulate::Contestant& law, const std::vector<sfsm::TraceRow>& recorded, int delay);
+Rerun rerun_open(const sfsm::simulate::Contestant& law, const std::vector<sfsm::TraceRow>& recorded, int delay,
+                 sfsm::Drawing drawing);
+
+// A law that is to decide without a course.
+std::unique_ptr<sfsm::Controller> make_law(const sfsm::simulate::Contestant& law, sfsm::Drawing drawing);
 
 Rerun rerun_closed(const sfsm::simulate::Contestant& law, const sfsm::simulate::Course& course);
 

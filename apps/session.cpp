@@ -84,11 +84,13 @@ Session open_session(const ReplayOptions& options) {
     session.recording = read(options.trace, options.process);
     const bool has_work = session.recording.has_work();
     session.delay = options.delay.value_or(has_work ? sfsm::trace_delay(session.recording.trace) : gpu_delay);
+    if (has_work) session.drawing = sfsm::trace_drawing(session.recording.trace);
     session.laws = laws_for(options, session.recording);
     set_targets(session.recording, options.target_ms);
     if (!options.open_loop) {
         session.course = made_of(options.trace, [&] {
-            return sim::make_course(sim::recorded_scenario(session.recording.trace.rows, {session.delay, has_work}));
+            return sim::make_course(
+                sim::recorded_scenario(session.recording.trace.rows, {session.delay, has_work, session.drawing}));
         });
     }
     return session;
@@ -121,7 +123,7 @@ Rerun recorded_run(const Session& session) {
 
 Rerun rerun(const Session& session, const sim::Contestant& law) {
     return session.course ? rerun_closed(law, *session.course)
-                          : rerun_open(law, session.recording.trace.rows, session.delay);
+                          : rerun_open(law, session.recording.trace.rows, session.delay, session.drawing);
 }
 
 std::vector<std::pair<std::string, std::string>> facts_of(const Session& session, const std::string& path) {

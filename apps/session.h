@@ -19,6 +19,7 @@ namespace apps {
 struct Session {
     sfsm::Recording recording;
     int delay = 0;  // [frames]
+    sfsm::Drawing drawing = sfsm::Drawing::opengl;
     std::vector<sfsm::simulate::Contestant> laws;
     std::optional<sfsm::simulate::Course> course;  // closed loop
 };

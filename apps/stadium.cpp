@@ -73,7 +73,8 @@ public:
           path_from_file_(load_path(options.camera)),
           surface_(options),
           device_(render::gl::read_device()),
-          stage_(build_stage(options.characters, options.people, options.seed, PointCache(options.cache), figures::by_opengl())),
+          stage_(build_stage(options.characters, options.people, options.seed, PointCache(options.cache),
+                             figures::by_opengl())),
           path_(path_from_file_ ? *path_from_file_ : stage_->place.cameras.named(options.camera)),
           renderer_(stage_->place.structure, stage_->place.ground, stage_->place.light, stage_->figures(),
                     options.width, options.height),
@@ -148,7 +149,7 @@ private:
         row.frame = frame;
         row.target_ms = target_scale_ * options_.target.at(frame);
         timer_.begin(frame);
-        const render::Survey& survey = selector_.survey(view, clock_.tick());
+        const render::Survey& survey = selector_.survey(view, clock_.tick(), renderer_.work_around(view));
         row.range = survey.range;
         row.decision = options_.state ? fixed_decision(options_, *options_.state, row.range)
                                       : controller_->decide({row.target_ms, row.range, &survey.forecast});

@@ -1,7 +1,6 @@
 #include "apps/stage.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "apps/interrupt.h"
 #include "apps/progress.h"
@@ -12,7 +11,6 @@
 #include "scene/cast.h"
 #include "scene/person.h"
 #include "scene/places/stadium.h"
-#include "sfsm/work.h"
 
 namespace apps {
 
@@ -21,13 +19,10 @@ namespace {
 // Posed vertices and points of all characters together; what the device holds is twice that.
 constexpr std::size_t pose_byte_budget = std::size_t{256} << 20;
 
-// As many points as are believed to cost what its triangles do: more are never drawn of a character.
+// As many as are ever drawn of a character, but enough for who is far.
 std::size_t point_count(const model::Mesh& mesh, const figures::Way& way) {
-    constexpr std::size_t fewest = 64, most = 4096;
-    const auto pieces = [&](sfsm::WorkKind kind) { return way.pieces[sfsm::index_of(kind)]; };
-    const double points_a_triangle = pieces(sfsm::WorkKind::triangle) / pieces(sfsm::WorkKind::point);
-    const double count = std::floor(points_a_triangle * static_cast<double>(mesh.triangle_count()));
-    return std::clamp(static_cast<std::size_t>(count), fewest, most);
+    constexpr std::size_t fewest = 64;
+    return std::max(fewest, figures::points_worth(mesh.triangle_count(), way));
 }
 
 // The first pose is the one that most people are seen in, where limbs are apart.

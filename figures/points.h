@@ -22,7 +22,13 @@ inline constexpr Representation points{"points", false, point_levels, point_outl
 // many points a person is drawn so; the last is all of the model.
 std::vector<Level> native_point_levels(const Figure& figure);
 
-inline constexpr Representation native_points{"points", false, native_point_levels, point_outline_px};
+// An area-sampled picture gains nothing from points finer than half a pixel.
+constexpr double native_point_outline_px(double splat_size, double silhouette) {
+    constexpr double finest = 0.5;  // [px]
+    return point_outline_px(splat_size > finest ? splat_size : finest, silhouette);
+}
+
+inline constexpr Representation native_points{"points", false, native_point_levels, native_point_outline_px};
 
 // What a drawer shows at one of the model's points.
 struct PointLook {

@@ -1,5 +1,7 @@
 #include "figures/way.h"
 
+#include <cmath>
+
 #include "figures/points.h"
 #include "figures/triangles.h"
 
@@ -7,29 +9,31 @@ namespace figures {
 
 namespace {
 
-constexpr std::array<double, sfsm::work_kinds> believed_pieces = [] {
-    std::array<double, sfsm::work_kinds> pieces{};
-    for (std::size_t kind = 0; kind < sfsm::work_kinds; ++kind) pieces[kind] = sfsm::work_table[kind].prior.pieces;
-    return pieces;
-}();
-
-constexpr std::array<double, sfsm::work_kinds> native_pieces = [] {
-    std::array<double, sfsm::work_kinds> pieces = believed_pieces;
-    pieces[sfsm::index_of(sfsm::WorkKind::point)] = 0.15;
-    return pieces;
-}();
+constexpr Way way_of(sfsm::Drawing drawing, std::span<const Representation> representations, std::size_t most_points) {
+    Way way{drawing, representations, {}, most_points};
+    for (std::size_t kind = 0; kind < sfsm::work_kinds; ++kind)
+        way.pieces[kind] = sfsm::work_table[kind].prior(drawing).pieces;
+    return way;
+}
 
 }  // namespace
 
+std::size_t points_worth(std::size_t triangles, const Way& way) {
+    const auto pieces = [&](sfsm::WorkKind kind) { return way.pieces[sfsm::index_of(kind)]; };
+    const double points_a_triangle = pieces(sfsm::WorkKind::triangle) / pieces(sfsm::WorkKind::point);
+    const double count = std::floor(points_a_triangle * static_cast<double>(triangles));
+    return count < static_cast<double>(way.most_points) ? static_cast<std::size_t>(count) : way.most_points;
+}
+
 const Way& by_opengl() {
     static constexpr Representation list[] = {triangles, points};
-    static constexpr Way way{"gl", list, believed_pieces};
+    static constexpr Way way = way_of(sfsm::Drawing::opengl, list, 16384);
     return way;
 }
 
 const Way& natively() {
     static constexpr Representation list[] = {triangles, native_points};
-    static constexpr Way way{"native", list, native_pieces};
+    static constexpr Way way = way_of(sfsm::Drawing::native, list, 4096);
     return way;
 }
 

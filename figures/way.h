@@ -2,18 +2,23 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <span>
-#include <string_view>
 
 #include "figures/representation.h"
 
 namespace figures {
 
 struct Way {
-    std::string_view name;
+    sfsm::Drawing drawing;
     std::span<const Representation> representations;  // in the order in which they are drawn and numbered
     std::array<double, sfsm::work_kinds> pieces;      // that one of each kind of work is believed to cost (sfsm/work.h)
+    std::size_t most_points;                          // of a model: more are of no use, whatever its triangles cost
 };
+
+// How many points a model of so many triangles can be drawn by: as many as are believed to cost what those do, at most
+// most_points.
+std::size_t points_worth(std::size_t triangles, const Way& way);
 
 const Way& by_opengl();
 const Way& natively();

@@ -67,7 +67,7 @@ void Forecaster::add(std::size_t kind, scene::Role role, float depth, float dema
 sfsm::Forecast Forecaster::finish(float theta) {
     price_motion(theta);
     price_shapes();
-    return {people_, motion_, shapes_};
+    return {sfsm::Work{people_}, motion_, shapes_};
 }
 
 // Who moves every f-th frame is due in a frame with a chance of 1 / f, and any of 0 to f - 1 frames old.

@@ -48,9 +48,10 @@ void Selector::for_each_visible(Visit visit) const {
     }
 }
 
-const Survey& Selector::survey(const View& view, std::int64_t tick) {
+const Survey& Selector::survey(const View& view, std::int64_t tick, const sfsm::Work& around) {
     view_ = view;
     tick_ = tick;
+    around_ = around;
     visible_blocks_.clear();
     block_inside_.clear();
     for (std::uint32_t block = 0; block < crowd_.blocks.size(); ++block) {
@@ -90,6 +91,7 @@ void Selector::forecast() {
                         view_.pixels_per_metre(depth_[person]));
     });
     survey_.forecast = forecaster_.finish(options_.theta);
+    survey_.forecast.frame += around_;
 }
 
 const Frame& Selector::select(const sfsm::Decision& decision, std::int64_t last_tick) {
@@ -152,7 +154,7 @@ Selector::Candidate Selector::consider(std::size_t person, const sfsm::Decision&
 
 void Selector::gather() {
     frame_.people.clear();
-    frame_.work = {};
+    frame_.work = around_;
     bool is_slowed = false, is_simplified = false;
     for_each_visible([&](std::size_t person) {
         const Candidate& candidate = candidates_[person];
@@ -162,7 +164,7 @@ void Selector::gather() {
         is_slowed |= candidate.slowed;
         is_simplified |= !options_.way->representations[candidate.person.representation].is_mesh;
     });
-    frame_.work[sfsm::WorkKind::person] = static_cast<std::int64_t>(frame_.people.size());
+    frame_.work[sfsm::WorkKind::person] += static_cast<std::int64_t>(frame_.people.size());
     frame_.state = is_simplified ? sfsm::State::points : is_slowed ? sfsm::State::slowed : sfsm::State::original;
 }
 

@@ -40,8 +40,9 @@ public:
     Selector(const scene::Crowd& crowd, std::span<const scene::CastMember> cast,
              std::span<const figures::Figure> figures, SelectOptions options = {});
 
-    // Finds the visible people at `tick`, and what drawing them would cost.
-    const Survey& survey(const View& view, std::int64_t tick);
+    // Finds the visible people at `tick`, and what drawing them would cost. `around`: the work of all that is drawn
+    // besides people, in the view alone (WorkAxis::frame); it is counted into the forecast and into the frames.
+    const Survey& survey(const View& view, std::int64_t tick, const sfsm::Work& around = {});
 
     // The surveyed people under `decision`; those whose motion was due since `last_tick` are counted as moved.
     const Frame& select(const sfsm::Decision& decision, std::int64_t last_tick);
@@ -80,6 +81,7 @@ private:
 
     View view_;
     std::int64_t tick_ = 0;
+    sfsm::Work around_;
     std::vector<std::uint32_t> visible_blocks_;
     std::vector<std::uint8_t> block_inside_;  // per visible block: no need to cull its people one by one
     std::vector<float> depth_;                // [m] per person of visible blocks; unseen: not in view

@@ -15,6 +15,15 @@ constexpr int first_probe = 12;        // times before it: the noise of a frame 
 constexpr int quiet_before_probe = 8;  // decisions without change
 constexpr int longest_wait = 24;       // decisions until a probe's time is given up
 
+// [px] The largest that loses no more than the finest; 0 where there is none.
+double finest_splat_of_use(const Forecast& forecast) {
+    const auto& shapes = forecast.shapes;
+    if (shapes.size() < 2) return 0;
+    std::size_t step = 1;
+    while (step + 1 < shapes.size() && shapes[step + 1].loss_px <= shapes[1].loss_px) ++step;
+    return shapes[step].setting;
+}
+
 }  // namespace
 
 void ForecastLaw::observe(const FrameSample& sample) {
@@ -41,7 +50,7 @@ void ForecastLaw::decide(const Forecast& forecast, std::int64_t frame) {
 
 // Nothing has been timed yet: better two coarse frames on a fast machine than two of a second each on a slow one.
 Plan ForecastLaw::first_guess(const Forecast& forecast) const {
-    const Prices guess = prices_of_a_slow_machine();
+    const Prices guess = prices_of_a_slow_machine(drawing_);
     const double least_ms = plan_ms(cheapest_plan(forecast, aim_.range), guess);
     return least_loss_plan(forecast, aim_.range, guess, std::max(aim_.target_ms, first_slack * least_ms));
 }
@@ -106,7 +115,7 @@ void ForecastLaw::probe(const Forecast& forecast) {
     } else if (probe_.points < aim_.options.probes && now.size == 0 &&
                is_doubtful(plan_at(forecast, aim_.range, now.distance, cheapest.size))) {
         // The finest, then coarser ones: two sizes tell points from what every frame has.
-        const double finest = forecast.shapes.size() > 1 ? forecast.shapes[1].setting : 0;
+        const double finest = finest_splat_of_use(forecast);
         plan = plan_at(forecast, aim_.range, now.distance, probe_.points == 0 ? finest : coarser_probe * finest);
         probe_.points += 1;
         aim_.status.reason = "learning what points cost";

@@ -13,7 +13,8 @@ namespace sfsm {
 
 class ForecastLaw {
 public:
-    explicit ForecastLaw(Aim& aim) : aim_(aim) {}  // the aim must outlive the law
+    // The aim must outlive the law.
+    ForecastLaw(Aim& aim, Drawing drawing) : aim_(aim), drawing_(drawing), model_(drawing) {}
 
     // A frame with a usable time; ignored unless its work was counted.
     void observe(const FrameSample& sample);
@@ -40,6 +41,7 @@ private:
     Plan plan_of(const Forecast& forecast, const Decision& decision) const;
 
     Aim& aim_;
+    Drawing drawing_;
     WorkModel model_;
     Decision kept_;         // what is drawn between probes
     int since_choice_ = 0;  // decisions since kept_ changed

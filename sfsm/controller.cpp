@@ -13,13 +13,15 @@ namespace {
 
 struct Law {
     std::string_view name;
-    std::unique_ptr<Controller> (*make)();
+    std::unique_ptr<Controller> (*make)(Drawing drawing);
 };
 
+using Made = std::unique_ptr<Controller>;
 constexpr std::array laws = {
-    Law{"predictive", [] { return std::unique_ptr<Controller>(std::make_unique<PredictiveLaw>()); }},
-    Law{"safeguarded", [] { return std::unique_ptr<Controller>(std::make_unique<SafeguardedLaw>()); }},
-    Law{"paper", [] { return std::unique_ptr<Controller>(std::make_unique<PaperLaw>()); }},
+    Law{"predictive",
+        [](Drawing drawing) -> Made { return std::make_unique<PredictiveLaw>(PredictiveOptions{}, drawing); }},
+    Law{"safeguarded", [](Drawing) -> Made { return std::make_unique<SafeguardedLaw>(); }},  // these two price nothing
+    Law{"paper", [](Drawing) -> Made { return std::make_unique<PaperLaw>(); }},
 };
 
 constexpr auto names = [] {
@@ -34,9 +36,9 @@ std::span<const std::string_view> law_names() {
     return names;
 }
 
-std::unique_ptr<Controller> make_controller(std::string_view law) {
+std::unique_ptr<Controller> make_controller(std::string_view law, Drawing drawing) {
     for (const Law& known : laws) {
-        if (known.name == law) return known.make();
+        if (known.name == law) return known.make(drawing);
     }
     std::string message = "found law '" + std::string(law) + "', expected one of:";
     for (const std::string_view name : names) message.append(" ").append(name);

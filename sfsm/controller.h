@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "sfsm/decision.h"
+#include "sfsm/drawing.h"
 #include "sfsm/forecast.h"
 #include "sfsm/prices.h"
 
@@ -53,7 +54,8 @@ public:
 // The laws there are, in the order they are listed to a user.
 std::span<const std::string_view> law_names();
 
-// Throws std::invalid_argument naming the laws there are.
-std::unique_ptr<Controller> make_controller(std::string_view law);
+// `drawing`: by what the frames are drawn, which tells a law what to believe of prices before it has seen times. Throws
+// std::invalid_argument naming the laws there are.
+std::unique_ptr<Controller> make_controller(std::string_view law, Drawing drawing = Drawing::opengl);
 
 }  // namespace sfsm

@@ -3,7 +3,6 @@
 // all pairs of a D and an S.
 #pragma once
 
-#include <cstdint>
 #include <span>
 
 #include "sfsm/work.h"
@@ -26,7 +25,8 @@ struct Step {
 // counts in a straight line of logarithms. So steps of S are about a quarter of an octave apart. Between triangles and
 // the smallest S there is nothing. Valid until the next frame's.
 struct Forecast {
-    std::int64_t people = 0;  // visible
+    Work
+        frame;  // of WorkAxis::frame, the other counts 0: people in view and all else that is drawn whatever is decided
     std::span<const Step> motion;
     std::span<const Step> shapes;
 };

@@ -7,6 +7,8 @@
 namespace sfsm {
 namespace {
 
+constexpr double rounding = 1e-9;  // relative: of times that differ by less neither is the cheaper
+
 // What a step's work on its own axis takes.
 template <WorkAxis axis>
 double step_ms(const Step& step, const Prices& prices) {
@@ -50,7 +52,7 @@ void take_shapes(Plan& plan, const Forecast& forecast, const Place& place) {
 
 Plan plan_of(const Forecast& forecast, double range, const Place& motion, const Place& shapes) {
     Plan plan;
-    plan.counts[index_of(WorkKind::person)] = counted(forecast.people);
+    for (const WorkKind kind : work_on<WorkAxis::frame>) plan.counts[index_of(kind)] = counted(forecast.frame[kind]);
     take_motion(plan, forecast, range, motion);
     take_shapes(plan, forecast, shapes);
     return plan;
@@ -75,6 +77,17 @@ Place fitting_place(std::span<const Step> steps, double rest, const Cost& cost, 
 double loss_at(std::span<const Step> steps, const Place& place) {
     const double b = steps[place.at].loss_px;
     return place.share < 1 ? std::lerp(steps[place.at - 1].loss_px, b, place.share) : b;
+}
+
+// The cheapest place from there on that loses as little: a renderer may gain nothing from its finest steps.
+template <class Cost>
+Place cheapest_alike(std::span<const Step> steps, Place place, const Cost& cost) {
+    const auto is_alike = [&](std::size_t i) { return steps[i].loss_px == steps[i - 1].loss_px; };
+    if (place.share < 1 && is_alike(place.at)) place.share = 1;
+    if (place.share < 1) return place;
+    for (std::size_t i = place.at + 1; i < steps.size() && is_alike(i); ++i)
+        if (cost(steps[i]) < cost(steps[place.at])) place.at = i;
+    return place;
 }
 
 }  // namespace
@@ -120,6 +133,9 @@ Plan cheapest_plan(const Forecast& forecast, double range) {
 Plan least_loss_plan(const Forecast& forecast, double range, const Prices& prices, double budget_ms) {
     const auto motion_cost = [&](const Step& step) { return step_ms<WorkAxis::motion>(step, prices); };
     const auto shape_cost = [&](const Step& step) { return step_ms<WorkAxis::shape>(step, prices); };
+    const auto ms_of = [&](const Place& motion, const Place& shapes) {
+        return plan_ms(plan_of(forecast, range, motion, shapes), prices);
+    };
     const auto has_distance = [&](const Step& step) { return std::isfinite(distance_of(step, range)); };
     const auto has_size = [](const Step& step) { return step.setting > 0; };
     Place best_motion{forecast.motion.size() - 1, 1}, best_shapes{forecast.shapes.size() - 1, 1};
@@ -127,17 +143,23 @@ Plan least_loss_plan(const Forecast& forecast, double range, const Prices& price
     const auto consider = [&](const Place& motion, const Place& shapes) {
         if (motion.at >= forecast.motion.size() || shapes.at >= forecast.shapes.size()) return;
         const double loss = loss_at(forecast.motion, motion) + loss_at(forecast.shapes, shapes);
-        if (!(loss < least)) return;
+        if (loss > least) return;
+        if (loss == least && !(ms_of(motion, shapes) < ms_of(best_motion, best_shapes) * (1 - rounding))) return;
         least = loss;
         best_motion = motion;
         best_shapes = shapes;
     };
-    const double rest = budget_ms - cost_of(Work{forecast.people}, prices);
-    for (std::size_t m = 0; m < forecast.motion.size(); ++m)
-        consider({m, 1}, fitting_place(forecast.shapes, rest - motion_cost(forecast.motion[m]), shape_cost, has_size));
-    for (std::size_t s = 0; s < forecast.shapes.size(); ++s)
-        consider(fitting_place(forecast.motion, rest - shape_cost(forecast.shapes[s]), motion_cost, has_distance),
-                 {s, 1});
+    const double rest = budget_ms - cost_of(only_on<WorkAxis::frame>(forecast.frame), prices);
+    for (std::size_t m = 0; m < forecast.motion.size(); ++m) {
+        const double left = rest - motion_cost(forecast.motion[m]);
+        const Place fitting = fitting_place(forecast.shapes, left, shape_cost, has_size);
+        consider({m, 1}, cheapest_alike(forecast.shapes, fitting, shape_cost));
+    }
+    for (std::size_t s = 0; s < forecast.shapes.size(); ++s) {
+        const double left = rest - shape_cost(forecast.shapes[s]);
+        const Place fitting = fitting_place(forecast.motion, left, motion_cost, has_distance);
+        consider(cheapest_alike(forecast.motion, fitting, motion_cost), {s, 1});
+    }
     return plan_of(forecast, range, best_motion, best_shapes);
 }
 

@@ -32,7 +32,8 @@ double plan_ms(const Plan& plan, const Prices& prices);
 Plan cheapest_plan(const Forecast& forecast, double range);
 
 // The plan of least summed loss that takes at most `budget_ms`: each step of D with the S that fits beside it, and each
-// step of S with the D that fits; the cheapest plan where none fits. Cost: steps times steps.
+// step of S with the D that fits; of equal losses the cheaper; the cheapest plan where none fits. Cost: steps times
+// steps.
 Plan least_loss_plan(const Forecast& forecast, double range, const Prices& prices, double budget_ms);
 
 }  // namespace sfsm

@@ -4,7 +4,7 @@
 
 namespace sfsm {
 
-PredictiveLaw::PredictiveLaw(const PredictiveOptions& options) {
+PredictiveLaw::PredictiveLaw(const PredictiveOptions& options, Drawing drawing) : by_forecast_(aim_, drawing) {
     options.validate();
     aim_.options = options;
 }

@@ -15,8 +15,9 @@ namespace sfsm {
 
 class PredictiveLaw final : public Controller {
 public:
-    explicit PredictiveLaw(const PredictiveOptions& options = {});  // throws as validate() does
-    PredictiveLaw(const PredictiveLaw&) = delete;                   // its two halves refer to its aim
+    // `drawing`: by what the frames are drawn. Throws as validate() does.
+    explicit PredictiveLaw(const PredictiveOptions& options = {}, Drawing drawing = Drawing::opengl);
+    PredictiveLaw(const PredictiveLaw&) = delete;  // its two halves refer to its aim
 
     void observe(const FrameSample& sample) override;
     Decision decide(const FrameRequest& request) override;
@@ -24,7 +25,7 @@ public:
 
 private:
     Aim aim_;
-    ForecastLaw by_forecast_{aim_};
+    ForecastLaw by_forecast_;
     AxisLaw by_axis_{aim_};
     bool has_forecast_ = false;  // of the newest decision
     std::int64_t decisions_ = 0;

@@ -5,9 +5,18 @@
 #include <stdexcept>
 
 #include "sfsm/number_text.h"
+#include "sfsm/text.h"
 #include "sfsm/trace_columns.h"
 
 namespace sfsm {
+namespace {
+
+std::string found_setting(const Trace& trace, const std::pair<const std::string, std::string>& setting) {
+    return (trace.name.empty() ? "" : trace.name + ": ") + "found setting " + setting.first + "=" +
+           shown(setting.second);
+}
+
+}  // namespace
 
 std::vector<Replayed> replay(Controller& law, std::span<const TraceRow> rows, int delay) {
     assert(delay >= 0 && delay <= max_delay);
@@ -31,11 +40,20 @@ int trace_delay(const Trace& trace) {
     const auto found = trace.settings.find("delay");
     if (found == trace.settings.end()) return 0;
     const std::optional<std::int64_t> delay = parse_integer(found->second);
-    if (!delay || *delay < 0 || *delay > max_delay) {
-        throw std::runtime_error((trace.name.empty() ? "" : trace.name + ": ") + "found setting delay=" +
-                                 found->second + ", expected a whole number in [0, " + std::to_string(max_delay) + "]");
-    }
+    if (!delay || *delay < 0 || *delay > max_delay)
+        throw std::runtime_error(found_setting(trace, *found) + ", expected a whole number in [0, " +
+                                 std::to_string(max_delay) + "]");
     return static_cast<int>(*delay);
+}
+
+Drawing trace_drawing(const Trace& trace) {
+    const auto found = trace.settings.find("draw");
+    if (found == trace.settings.end()) return Drawing::opengl;
+    const std::optional<Drawing> drawing = drawing_named(found->second);
+    if (drawing) return *drawing;
+    std::string message = found_setting(trace, *found) + ", expected one of:";
+    for (const std::string_view name : drawing_names) message.append(" ").append(name);
+    throw std::runtime_error(message);
 }
 
 std::optional<Difference> first_difference(std::span<const TraceRow> rows, std::span<const Replayed> replayed) {

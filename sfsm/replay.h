@@ -29,6 +29,10 @@ std::vector<Replayed> replay(Controller& law, std::span<const TraceRow> rows, in
 // The setting `delay`; 0 where the trace has none. Throws std::runtime_error when it is not a number in [0, max_delay].
 int trace_delay(const Trace& trace);
 
+// By what the trace's frames were drawn: the setting `draw`; OpenGL where the trace has none. Throws std::runtime_error
+// when it names none.
+Drawing trace_drawing(const Trace& trace);
+
 // A number of a decision that differs from the recorded one in any bit.
 struct Difference {
     std::int64_t frame = 0;

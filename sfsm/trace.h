@@ -31,7 +31,7 @@ struct TraceRow {
     // The forecast given to the controller before this frame; both empty if there was none.
     std::vector<Step> motion, shapes;
     bool has_forecast() const { return !motion.empty() && !shapes.empty(); }
-    Forecast forecast() const { return {work[WorkKind::person], motion, shapes}; }  // as long as the row lives
+    Forecast forecast() const { return {only_on<WorkAxis::frame>(work), motion, shapes}; }  // as long as the row lives
 };
 
 struct Trace {

@@ -7,41 +7,42 @@ namespace {
 
 constexpr double frame_share = 0.05;  // of the first frame's pieces, for what is there in every frame
 constexpr double frame_spread = 1;    // of that belief, as WorkPrior::spread
-constexpr double slow_piece_ms = 30e-6;
+constexpr std::array<double, drawings> slow_piece_ms = {30e-6, 20e-6};  // by Drawing
 static_assert(1 + work_kinds <= most_terms);
 
-constexpr PriceBelief belief = [] {
+PriceBelief belief_of(Drawing drawing) {
     PriceBelief all;
     all.terms = 1 + static_cast<int>(work_kinds);
     all.spread[0] = frame_spread;
     for (std::size_t i = 0; i < work_kinds; ++i) {
-        all.spread[i + 1] = work_table[i].prior.spread;
-        all.least[i + 1] = work_table[i].prior.least;
+        const WorkPrior& prior = work_table[i].prior(drawing);
+        all.spread[i + 1] = prior.spread;
+        all.least[i + 1] = prior.least;
     }
     return all;
-}();
-
-// Of each kind, in pieces.
-Amounts amounts_from(double frame_amount, const std::array<double, work_kinds>& counts) {
-    Amounts amounts;
-    amounts.terms = belief.terms;
-    amounts.of[0] = frame_amount;
-    for (std::size_t i = 0; i < work_kinds; ++i) amounts.of[i + 1] = work_table[i].prior.pieces * counts[i];
-    return amounts;
 }
 
 }  // namespace
 
-WorkModel::WorkModel() : costs_(belief) {}
+WorkModel::WorkModel(Drawing drawing) : drawing_(drawing), costs_(belief_of(drawing)) {}
+
+// Of each kind, in pieces.
+Amounts WorkModel::amounts_from(const std::array<double, work_kinds>& counts) const {
+    Amounts amounts;
+    amounts.terms = 1 + static_cast<int>(work_kinds);
+    amounts.of[0] = frame_amount_;
+    for (std::size_t i = 0; i < work_kinds; ++i) amounts.of[i + 1] = work_table[i].prior(drawing_).pieces * counts[i];
+    return amounts;
+}
 
 Amounts WorkModel::amounts_of(const Plan& plan) const {
-    return amounts_from(frame_amount_, plan.counts);
+    return amounts_from(plan.counts);
 }
 
 Amounts WorkModel::amounts_of(const Work& work) const {
     std::array<double, work_kinds> counts;
     for (std::size_t i = 0; i < work_kinds; ++i) counts[i] = counted(work.counts[i]);
-    return amounts_from(frame_amount_, counts);
+    return amounts_from(counts);
 }
 
 void WorkModel::observe(const FrameSample& sample, double target_ms) {
@@ -69,7 +70,7 @@ Prices WorkModel::prices() const {
     Prices prices;
     prices.frame = costs_.gain() * costs_.price(0) * frame_amount_;
     for (std::size_t i = 0; i < work_kinds; ++i)
-        prices.each[i] = costs_.gain() * costs_.price(static_cast<int>(i) + 1) * work_table[i].prior.pieces;
+        prices.each[i] = costs_.gain() * costs_.price(static_cast<int>(i) + 1) * work_table[i].prior(drawing_).pieces;
     return prices;
 }
 
@@ -77,9 +78,10 @@ Prices WorkModel::foreseen_prices() const {
     return std::exp(foresight_.bias()) * prices();
 }
 
-Prices prices_of_a_slow_machine() {
+Prices prices_of_a_slow_machine(Drawing drawing) {
     Prices prices;
-    for (std::size_t i = 0; i < work_kinds; ++i) prices.each[i] = slow_piece_ms * work_table[i].prior.pieces;
+    for (std::size_t i = 0; i < work_kinds; ++i)
+        prices.each[i] = slow_piece_ms[index_of(drawing)] * work_table[i].prior(drawing).pieces;
     return prices;
 }
 

@@ -1,6 +1,7 @@
 // What each kind of work costs, learned from frames that counted theirs; and from it, what a plan will take.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "sfsm/cost_model.h"
@@ -13,7 +14,7 @@ namespace sfsm {
 
 class WorkModel {
 public:
-    WorkModel();
+    explicit WorkModel(Drawing drawing);
 
     // A frame whose work was counted, with a usable time.
     void observe(const FrameSample& sample, double target_ms);
@@ -32,14 +33,16 @@ public:
 private:
     Amounts amounts_of(const Plan& plan) const;
     Amounts amounts_of(const Work& work) const;
+    Amounts amounts_from(const std::array<double, work_kinds>& counts) const;
 
+    Drawing drawing_;
     CostModel costs_;          // term 0: what every frame has; then one a kind of work
     double frame_amount_ = 0;  // of term 0; 0 until work has been seen
     Foresight foresight_;
     Refresh refresh_;
 };
 
-// Times [ms] to plan by while nothing is known: a slow machine's.
-Prices prices_of_a_slow_machine();
+// Times [ms] to plan by while nothing is known: a slow machine's that draws so.
+Prices prices_of_a_slow_machine(Drawing drawing);
 
 }  // namespace sfsm

@@ -43,6 +43,16 @@ Backdrop::Backdrop(const scene::StaticMesh& structure, const scene::Ground& grou
     add_float(a, attribute_static_color, 4, GL_UNSIGNED_BYTE, true, offsetof(scene::StaticVertex, color), binding);
 }
 
+sfsm::Work Backdrop::work(const View& view) const {
+    sfsm::Work work;
+    for (const std::vector<SectorRange>* sectors : {&painted_, &ground_})
+        for (const SectorRange& sector : *sectors)
+            if (overlap(view, sector.box) != Overlap::outside)
+                work[sfsm::WorkKind::structure_triangle] += sector.index_count / 3;
+    work[sfsm::WorkKind::pixel] = std::int64_t{view.width} * view.height;
+    return work;
+}
+
 void Backdrop::draw(const View& view) const {
     glBindVertexArray(array_.name());
     draw_sectors(view, structure_program_, painted_);

@@ -7,12 +7,16 @@
 #include "render/view.h"
 #include "scene/ground.h"
 #include "scene/static_mesh.h"
+#include "sfsm/work.h"
 
 namespace render::gl {
 
 class Backdrop {
 public:
     Backdrop(const scene::StaticMesh& structure, const scene::Ground& ground);
+
+    // What draw() draws: triangles of the sectors in view, and every pixel of the picture.
+    sfsm::Work work(const View& view) const;
 
     // After the people, whose depths hide most of it: the costliest pixels (ground, sky) come last.
     void draw(const View& view) const;

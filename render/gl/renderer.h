@@ -28,6 +28,9 @@ public:
 
     void resize(int width, int height);
 
+    // What a frame of this view draws besides people.
+    sfsm::Work work_around(const View& view) const { return backdrop_.work(view); }
+
     // Draws into the renderer's own target; splats are at least one pixel wide.
     void draw(const Frame& frame);
 

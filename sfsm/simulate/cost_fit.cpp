@@ -64,14 +64,14 @@ double pieces_of(const Observation& seen) {
 }
 
 // Amounts in pieces, times in ms; what every frame has is still nothing.
-std::vector<Observation> observations_of(std::span<const TraceRow> rows) {
+std::vector<Observation> observations_of(std::span<const TraceRow> rows, Drawing drawing) {
     std::vector<Observation> all;
     std::vector<double> times;
     for (const TraceRow& row : rows) {
         if (!is_frame_time(row.frame_ms)) continue;
         Observation& seen = all.emplace_back();
         for (const WorkEntry& entry : work_table)
-            seen.amounts[unknown_of(entry.kind)] = entry.prior.fit_pieces * counted(row.work[entry.kind]);
+            seen.amounts[unknown_of(entry.kind)] = entry.prior(drawing).fit_pieces * counted(row.work[entry.kind]);
         seen.time = row.frame_ms;
         times.push_back(row.frame_ms);
     }
@@ -159,13 +159,13 @@ double likeness_of(std::vector<double> residuals) {
 
 // How sure the belief is of each price: 1 over its sigma. A kind whose count hardly changes (people, updates) tells
 // nothing that a drift of the machine couldn't tell as well, so there the belief is very sure.
-Unknowns sureness_of(const std::vector<Observation>& all) {
+Unknowns sureness_of(const std::vector<Observation>& all, Drawing drawing) {
     constexpr double least_change = 1.5;  // of the 95th percentile over the 5th
     constexpr double sure = 100;
     Unknowns sureness{1};
     for (const WorkEntry& entry : work_table) {
         const std::size_t kind = unknown_of(entry.kind);
-        sureness[kind] = 1 / entry.prior.fit_spread;
+        sureness[kind] = 1 / entry.prior(drawing).fit_spread;
         if (entry.axis == WorkAxis::shape) continue;
         std::vector<double> amounts;
         for (const Observation& seen : all) amounts.push_back(seen.amounts[kind]);
@@ -243,8 +243,7 @@ struct Solution {
 
 // Iteratively reweighted least squares from `solution` on. Without prices, in the first round, residuals are relative
 // to the times, all weigh the same, and the belief decides only what is left open.
-void refine(Solution& solution, const std::vector<Observation>& all, double likeness) {
-    const Unknowns sureness = sureness_of(all);
+void refine(Solution& solution, const std::vector<Observation>& all, const Unknowns& sureness, double likeness) {
     double sigma = 0, change = 1;
     for (int round = 0; round < most_rounds && change > std::max(settled, settled_noise * sigma); ++round) {
         if (has_prices(solution.prices)) sigma = sigma_of(news_of(residuals_of(all, solution.prices), likeness));
@@ -261,18 +260,18 @@ void refine(Solution& solution, const std::vector<Observation>& all, double like
     }
 }
 
-Solution solve(const std::vector<Observation>& all) {
+Solution solve(const std::vector<Observation>& all, const Unknowns& sureness) {
     Solution solution;
-    refine(solution, all, 0);
-    refine(solution, all, likeness_of(residuals_of(all, solution.prices)));
+    refine(solution, all, sureness, 0);
+    refine(solution, all, sureness, likeness_of(residuals_of(all, solution.prices)));
     return solution;
 }
 
-Prices prices_of(const Unknowns& unknown, const Units& units) {
+Prices prices_of(const Unknowns& unknown, const Units& units, Drawing drawing) {
     Prices prices;
     prices.frame = unknown[frame] * units.ms_each * units.frame_pieces;
     for (const WorkEntry& entry : work_table)
-        prices[entry.kind] = unknown[unknown_of(entry.kind)] * units.ms_each * entry.prior.fit_pieces;
+        prices[entry.kind] = unknown[unknown_of(entry.kind)] * units.ms_each * entry.prior(drawing).fit_pieces;
     return prices;
 }
 
@@ -299,19 +298,19 @@ void judge(CostFit& fit, const std::vector<Observation>& all, const Unknowns& pr
 
 }  // namespace
 
-CostFit fit_costs(std::span<const TraceRow> rows) {
-    std::vector<Observation> all = observations_of(rows);
+CostFit fit_costs(std::span<const TraceRow> rows, Drawing drawing) {
+    std::vector<Observation> all = observations_of(rows, drawing);
     if (all.size() < fewest_frames) {
         throw std::runtime_error("found " + std::to_string(all.size()) +
                                  " frames with a time, expected 16 to learn what work costs");
     }
     if (std::all_of(all.begin(), all.end(), [](const Observation& seen) { return pieces_of(seen) == 0; }))
-        throw std::runtime_error("found no work counted in any frame, expected people, triangles, points or updates");
+        throw std::runtime_error("found no work counted in any frame, expected some in a column");
     const Units units = scale(all);
-    const Solution solution = solve(all);
+    const Solution solution = solve(all, sureness_of(all, drawing));
     CostFit fit;
-    fit.prices = prices_of(solution.prices, units);
-    fit.sigma = prices_of(solution.sigma, units);
+    fit.prices = prices_of(solution.prices, units, drawing);
+    fit.sigma = prices_of(solution.sigma, units, drawing);
     fit.frames = std::ssize(all);
     fit.median_ms = units.median_ms;
     judge(fit, all, solution.prices);

@@ -32,8 +32,9 @@ struct CostFit {
 //   never drawn are not free, and the time of a constant crowd is shared between its people and the frame.
 // - That belief is weak against hundreds of noisy frames, and moves nothing where there is no noise.
 // - Left out: rows without a time, or with one more than a thousandfold from the median.
-// Throws std::runtime_error where fewer than 16 rows are left, or no work is counted in any.
-CostFit fit_costs(std::span<const TraceRow> rows);
+// `drawing`: by what the rows were drawn, whose beliefs those are. Throws std::runtime_error where fewer than 16 rows
+// are left, or no work is counted in any.
+CostFit fit_costs(std::span<const TraceRow> rows, Drawing drawing = Drawing::opengl);
 
 // A time that a frame can take at all: from a nanosecond to eleven days.
 inline bool is_frame_time(double ms) {

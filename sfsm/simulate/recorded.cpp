@@ -31,7 +31,7 @@ struct Steps {
     explicit Steps(const Forecast& from)
         : motion(from.motion.begin(), from.motion.end()),
           shapes(from.shapes.begin(), from.shapes.end()),
-          forecast{from.people, motion, shapes} {}
+          forecast{from.frame, motion, shapes} {}
     Steps(const Steps&) = delete;
     Steps(Steps&&) = default;  // vectors keep their memory
 };
@@ -118,7 +118,7 @@ double least_plan_ms(const Forecast& forecast, const Prices& prices) {
         for (const Step& step : steps) least_ms = std::min(least_ms, cost_of(step.work, each));
         return least_ms;
     };
-    return cost_of(Work{forecast.people}, prices) + least_of(forecast.motion) + least_of(forecast.shapes);
+    return cost_of(forecast.frame, prices) + least_of(forecast.motion) + least_of(forecast.shapes);
 }
 
 Decision RecordedPlant::optimum(std::int64_t frame, double limit_ms) const {
@@ -140,7 +140,7 @@ bool has_sound_numbers(const Step& step) {
 // Distances fall, only the first may be infinite; sizes rise from triangles on; all else is finite. Counts may do what
 // they like.
 bool has_sound_forecast(const TraceRow& row) {
-    if (!row.has_forecast() || !is_count(row.work[WorkKind::person])) return false;
+    if (!row.has_forecast() || !std::ranges::all_of(row.forecast().frame.counts, is_count)) return false;
     if (!std::ranges::all_of(row.motion, has_sound_numbers) || !std::ranges::all_of(row.shapes, has_sound_numbers))
         return false;
     for (std::size_t i = 0; i < row.motion.size(); ++i) {
@@ -177,8 +177,8 @@ bool has_time(const TraceRow& row) {
 }
 
 // Of our own rows: the model is fitted, the candidates are the rows'.
-RecordedPlant own_plant(std::span<const TraceRow> rows, std::span<const std::size_t> forecast_of) {
-    const CostFit fit = fit_costs(rows);
+RecordedPlant own_plant(std::span<const TraceRow> rows, std::span<const std::size_t> forecast_of, Drawing drawing) {
+    const CostFit fit = fit_costs(rows, drawing);
     const std::vector<std::size_t> range_of = last_rows(rows, [](const TraceRow& row) { return is_range(row.range); });
     std::vector<Steps> steps;
     std::vector<RecordedFrame> frames;
@@ -234,8 +234,8 @@ Scenario recorded_scenario(std::span<const TraceRow> rows, const RecordedOptions
     std::vector<std::size_t> forecast_of;
     if (options.has_work) forecast_of = last_rows(rows, has_sound_forecast);
     const bool is_foreign = forecast_of.empty();
-    const auto plant =
-        std::make_shared<RecordedPlant>(is_foreign ? reference_plant(rows.size()) : own_plant(rows, forecast_of));
+    const auto plant = std::make_shared<RecordedPlant>(is_foreign ? reference_plant(rows.size())
+                                                                  : own_plant(rows, forecast_of, options.drawing));
     for (std::int64_t frame = 0; frame < std::ssize(rows); ++frame) {
         const TraceRow& row = rows[static_cast<std::size_t>(frame)];
         if (!has_time(row)) continue;
@@ -249,6 +249,7 @@ Scenario recorded_scenario(std::span<const TraceRow> rows, const RecordedOptions
     scenario.name = "recorded";
     scenario.about = "a recorded run of " + std::to_string(rows.size()) + " frames";
     scenario.plant = plant;
+    scenario.drawing = options.drawing;
     scenario.target = targets_of(rows);
     scenario.frames = std::ssize(rows);
     scenario.statistics_from = std::min(usual_start, scenario.frames / 10);

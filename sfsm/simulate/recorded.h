@@ -18,8 +18,9 @@ namespace sfsm::simulate {
 // all frames, L = 600 m.
 
 struct RecordedOptions {
-    int delay = 2;          // [frames] in [0, max_delay]
-    bool has_work = false;  // rows are one of our traces'
+    int delay = 2;                      // [frames] in [0, max_delay]
+    bool has_work = false;              // rows are one of our traces'
+    Drawing drawing = Drawing::opengl;  // by which they were drawn
 };
 
 // The run in a closed loop, without any noise but what the load brings; frame k is rows[k], whatever its number.

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sfsm/drawing.h"
 #include "sfsm/simulate/plant.h"
 #include "sfsm/target.h"
 
@@ -37,6 +38,7 @@ struct Scenario {
     std::string name;
     std::string about;  // in a few words
     std::shared_ptr<const Plant> plant;
+    Drawing drawing = Drawing::opengl;                                    // what laws are told that frames are drawn by
     TargetSchedule target = TargetSchedule::parse("16.666666666666668");  // [ms]
     std::int64_t frames = 3600;
     std::int64_t statistics_from = 200;  // laws may learn before

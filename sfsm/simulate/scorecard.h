@@ -11,7 +11,7 @@
 
 namespace sfsm::simulate {
 
-// A law, and how to make a fresh one for a run. The course is for those that may look ahead.
+// A law, and how to make a fresh one for a run. A law may look at the course's drawing; at all of it, who looks ahead.
 struct Contestant {
     std::string name;
     std::function<std::unique_ptr<Controller>(const Course&)> make;

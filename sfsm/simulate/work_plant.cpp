@@ -112,7 +112,7 @@ WorkPlant::WorkPlant(const Prices& prices, std::vector<View> views, ViewAt view_
     tables_.reserve(views_.size());
     for (const View& view : views_) {
         Tables& tables = tables_.emplace_back(tables_of(view));
-        tables.forecast = {std::llround(view.people), tables.motion, tables.shapes};
+        tables.forecast = {Work{std::llround(view.people)}, tables.motion, tables.shapes};
     }
 }
 

@@ -36,7 +36,7 @@ sfsm::Work work_of(const sfsm::Decision& decision) {
 
 // [ms]; sums of eighths, which no compiler can round in another way.
 double cost_of(const sfsm::Work& work) {
-    constexpr std::array<std::int64_t, sfsm::work_kinds> in_an_eighth{2000, 25000, 12500, 2500};
+    constexpr std::array<std::int64_t, sfsm::work_kinds> in_an_eighth{2000, 25000, 12500, 2500, 9000, 100000};
     std::int64_t eighths = 10;
     for (std::size_t kind = 0; kind < work.counts.size(); ++kind) eighths += work.counts[kind] / in_an_eighth[kind];
     return static_cast<double>(eighths) / 8;
@@ -46,7 +46,7 @@ double cost_of(const sfsm::Work& work) {
 
 int main() {
     const std::unique_ptr<sfsm::Controller> law = sfsm::make_controller("predictive");
-    const sfsm::Forecast forecast{20000, motion, shapes};
+    const sfsm::Forecast forecast{sfsm::Work{20000}, motion, shapes};
     for (std::int64_t frame = 0; frame < 100; ++frame) {
         const sfsm::Decision decision = law->decide({frame < 50 ? 33.0 : 16.0, 200, &forecast});
         const sfsm::Work work = work_of(decision);

@@ -66,7 +66,8 @@ struct HostileForecast {
         for (std::size_t i = 0; i < shape_count; ++i) {
             shapes[i] = {reader.number(4), Work{0, reader.count(), reader.count()}, reader.number(1)};
         }
-        forecast = {reader.count(), std::span(motion).first(motion_count), std::span(shapes).first(shape_count)};
+        forecast = {Work{reader.count(), 0, 0, 0, reader.count(), reader.count()},
+                    std::span(motion).first(motion_count), std::span(shapes).first(shape_count)};
     }
 };
 

@@ -68,7 +68,7 @@ Views look_past(glm::vec2 half) {
         const glm::dvec3 camera = glm::dvec3(feet) + glm::dvec3(0, 0.9, 0) + distance * back;
         const glm::dvec3 askew(2 * unit() - 1, 2 * unit() - 1, 2 * unit() - 1);
         const render::View view = view_from(camera, askew - back);
-        const std::int64_t selected = selector.survey(view, 0).forecast.people;
+        const std::int64_t selected = selector.survey(view, 0).forecast.frame[sfsm::WorkKind::person];
         const bool shows = some_spot_shows(view, feet, half);
         EXPECT_TRUE(selected == 1 || !shows) << "view " << i;
         views.shown += shows;
@@ -97,7 +97,7 @@ TEST(LonePerson, IsDrawnWholeByWhoeverStandsInThem) {
         // Their middle is behind the camera or just before it, their front in view.
         const render::View view = view_from({0, 0.9, ahead}, {0, 0, 1}, 1.4);
         const render::Survey& survey = selector.survey(view, 0);
-        ASSERT_EQ(survey.forecast.people, 1) << ahead;
+        ASSERT_EQ(survey.forecast.frame[sfsm::WorkKind::person], 1) << ahead;
         EXPECT_GE(survey.range, 1);
         for (const sfsm::Step& step : survey.forecast.shapes) {
             EXPECT_GE(step.loss_px, 0);
@@ -238,7 +238,7 @@ TEST(Forecast, LossOfMotionIsTheMeasuredDisplacement) {
     const auto poses = static_cast<std::uint32_t>(row.poses[0].pose_count);
     Selector selector(row.crowd, row.cast, row.figures()), fresh(row.crowd, row.cast, row.figures());
     const sfsm::Forecast forecast = selector.survey(view, 0).forecast;
-    ASSERT_EQ(forecast.people, 120);
+    ASSERT_EQ(forecast.frame[sfsm::WorkKind::person], 120);
     const std::vector<sfsm::Step> steps(forecast.motion.begin(), forecast.motion.end());
     for (const sfsm::Step& step : steps) {
         double displaced = 0;  // [px] summed
@@ -296,7 +296,7 @@ TEST(Forecast, LossOfSplatsIsHalfASplatOrHalfThePerson) {
             lost += std::min(step.setting, silhouette) / 2;
         }
         constexpr double bin_width = 0.05;
-        const double measured = lost / static_cast<double>(forecast.people);
+        const double measured = lost / static_cast<double>(forecast.frame[sfsm::WorkKind::person]);
         EXPECT_NEAR(step.loss_px, measured, bin_width * measured) << "S = " << step.setting;
     }
     EXPECT_EQ(steps.front().loss_px, 0);

@@ -193,7 +193,8 @@ TEST(Survey, NeedsNoFrameBeforeIt) {
         const render::Survey &survey = selector.survey(view_of(preset), 100),
                              &alone = fresh.survey(view_of(preset), 100);
         EXPECT_EQ(survey.range, alone.range) << preset;
-        EXPECT_EQ(survey.forecast.people, alone.forecast.people) << preset;
+        EXPECT_EQ(survey.forecast.frame[sfsm::WorkKind::person], alone.forecast.frame[sfsm::WorkKind::person])
+            << preset;
         EXPECT_TRUE(std::ranges::equal(survey.forecast.motion, alone.forecast.motion)) << preset;
         EXPECT_TRUE(std::ranges::equal(survey.forecast.shapes, alone.forecast.shapes)) << preset;
     }
@@ -204,7 +205,7 @@ TEST(Survey, OfNobodyCostsAndLosesNothing) {
     const render::View up = render::make_view({{0, 200, 0}, {0, 300, 0}, 0.8}, 640, 360);
     const render::Survey& survey = selector.survey(up, 100);
     EXPECT_EQ(survey.range, 1);
-    EXPECT_EQ(survey.forecast.people, 0);
+    EXPECT_EQ(survey.forecast.frame[sfsm::WorkKind::person], 0);
     for (const sfsm::Step& step : survey.forecast.motion) {
         EXPECT_EQ(step.work[sfsm::WorkKind::motion_update], 0);
         EXPECT_EQ(step.loss_px, 0);
@@ -281,7 +282,7 @@ TEST(Forecast, CountsWhatSelectionDraws) {
         for (const sfsm::Step& step : forecast.shapes) {
             const Decision decision = step.setting == 0 ? Decision{} : points_of(step.setting);
             const sfsm::Work work = selector.select(decision, 99).work;
-            EXPECT_EQ(forecast.people, work[sfsm::WorkKind::person]);
+            EXPECT_EQ(forecast.frame[sfsm::WorkKind::person], work[sfsm::WorkKind::person]);
             // In units of price: what changes from one kind to another is counted in both.
             const double price = shape_cost(work), foreseen = shape_cost(step.work);
             EXPECT_NEAR(foreseen, price, bin_error * price) << preset << ", S = " << step.setting;
@@ -296,8 +297,8 @@ TEST(Selection, HasOnlyThoseWhoHaveArrived) {
     const render::View view = view_of("remote");
     std::int64_t before = 0;
     for (const std::int64_t tick : {0, 1, 250, 500, 1000}) {
-        EXPECT_GE(selector.survey(view, tick).forecast.people, before);
-        before = selector.survey(view, tick).forecast.people;
+        EXPECT_GE(selector.survey(view, tick).forecast.frame[sfsm::WorkKind::person], before);
+        before = selector.survey(view, tick).forecast.frame[sfsm::WorkKind::person];
         EXPECT_EQ(selector.select({}, tick - 1).work[sfsm::WorkKind::person], before);
         EXPECT_TRUE(tick > 0 || before == 0);
     }

@@ -127,7 +127,7 @@ TEST(Several, AreForecastAsEachWouldBeAlone) {
     for (const tests::LonePeople& part : parts) {
         Selector alone(part.crowd, part.cast, part.figures());
         const sfsm::Forecast forecast = alone.survey(along_the_columns(), 100).forecast;
-        ASSERT_EQ(forecast.people, rows);
+        ASSERT_EQ(forecast.frame[sfsm::WorkKind::person], rows);
         const double share = 1.0 / static_cast<double>(parts.size());  // there are as many of each
         for (std::size_t i = 0; i < splats.size(); ++i) {
             splats[i].work[sfsm::WorkKind::triangle] += forecast.shapes[i].work[sfsm::WorkKind::triangle];
@@ -194,8 +194,8 @@ TEST(Units, OfAModelDoNotDecideWhoIsSeen) {
         int seen = 0, looks = 0;
         for (double up = -1; up < 1; up += 0.0137) {
             const render::View view = render::make_view({{0, 0.9, 6}, {0, 0.9 + 6 * up, 0}, 0.5}, 640, 360);
-            const std::int64_t people = one.survey(view, 0).forecast.people;
-            EXPECT_EQ(two.survey(view, 0).forecast.people, people) << "up " << up;
+            const std::int64_t people = one.survey(view, 0).forecast.frame[sfsm::WorkKind::person];
+            EXPECT_EQ(two.survey(view, 0).forecast.frame[sfsm::WorkKind::person], people) << "up " << up;
             seen += people == 1;
             ++looks;
         }

@@ -46,7 +46,7 @@ struct Steps {
         const double point = uniform(random, 0, 1e-5);
         prices = {uniform(random, 0, 5), {0, point + uniform(random, 0, 1e-5), point, uniform(random, 0, 1e-3)}};
     }
-    Forecast forecast() const { return {1000, motion, shapes}; }
+    Forecast forecast() const { return {Work{1000}, motion, shapes}; }
 
     double ms(const Step& m, const Step& s) const {
         double ms = prices.frame;
@@ -97,7 +97,7 @@ TEST(LeastLoss, MoreTimeNeverLosesMore) {
 TEST(LeastLoss, ABudgetBetweenTwoSplatSizesIsMetBetweenThem) {
     const std::vector<Step> motion = {motion_step(test_range, 0, 0)};
     const std::vector<Step> shapes = {shape_step(0, 1000, 0, 0), shape_step(1, 0, 800, 2), shape_step(2, 0, 400, 4)};
-    const Forecast forecast{100, motion, shapes};
+    const Forecast forecast{Work{100}, motion, shapes};
     const Prices prices{1, {0, 0.01, 0.01, 0}};
     const Plan middle = least_loss_plan(forecast, test_range, prices, 1 + 6);
     EXPECT_NEAR(middle.loss_px, 3, rounding);
@@ -112,7 +112,7 @@ TEST(LeastLoss, ABudgetBetweenTwoDistancesIsMetBetweenThem) {
     const std::vector<Step> motion = {motion_step(std::numeric_limits<double>::infinity(), 1000, 0),
                                       motion_step(120, 600, 1), motion_step(60, 200, 3)};
     const std::vector<Step> shapes = {shape_step(0, 0, 0, 0)};
-    const Forecast forecast{1000, motion, shapes};
+    const Forecast forecast{Work{1000}, motion, shapes};
     const Prices prices{2, {0, 0, 0, 0.01}};
     const Plan low = least_loss_plan(forecast, test_range, prices, 2 + 4);
     EXPECT_NEAR(low.distance, 90, rounding);

@@ -262,7 +262,7 @@ struct Scene {
             const double size = 0.5 * std::exp2(i / 4.0);
             shapes.push_back(shape_step(size, 0, std::llround(people * points_each / size), 0.5 * size));
         }
-        forecast = {std::llround(people), motion, shapes};
+        forecast = {Work{std::llround(people)}, motion, shapes};
     }
     Work work(const Decision& decision) const {
         const double share =
@@ -451,8 +451,8 @@ TEST(PredictiveForecast, ABetterDecisionOfEqualTimeIsTaken) {
     Scene before = scene_of(20'000), after = before;
     for (Step& step : before.motion) step.loss_px *= 0.01;
     for (Step& step : after.motion) step.loss_px *= 100;
-    before.forecast = {before.forecast.people, before.motion, before.shapes};
-    after.forecast = {after.forecast.people, after.motion, after.shapes};
+    before.forecast = {before.forecast.frame, before.motion, before.shapes};
+    after.forecast = {after.forecast.frame, after.motion, after.shapes};
     PredictiveLaw law;
     const auto rows =
         run(law, ForecastLoop{[&](std::int64_t frame) -> const Scene& { return frame < 300 ? before : after; },
@@ -545,11 +545,13 @@ TEST(PredictiveLaw, NoInputMakesADecisionLeaveItsRange) {
             std::vector<Step> shapes(random() % 6);
             for (Step& step : shapes)
                 step = {any_number(random), Work{0, any_count(random), any_count(random)}, any_number(random)};
-            const Forecast forecast{any_count(random), motion, shapes};
+            const Forecast forecast{Work{any_count(random), 0, 0, 0, any_count(random), any_count(random)}, motion,
+                                    shapes};
             const FrameSample sample{any_count(random),
                                      any_number(random),
                                      random() % 2 ? law.status().decision : any_decision(random),
-                                     {any_count(random), any_count(random), any_count(random), any_count(random)}};
+                                     {any_count(random), any_count(random), any_count(random), any_count(random),
+                                      any_count(random), any_count(random)}};
             law.observe(sample);
             expect_sane(law.decide({any_number(random), any_number(random), random() % 3 ? &forecast : nullptr}),
                         law.status().reason);

@@ -25,26 +25,35 @@ TEST(WorkTable, EveryKindIsOnOneAxisAndPriorsAreInRange) {
               work_kinds);
     for (const WorkEntry& entry : work_table) {
         EXPECT_EQ(&entry_of(entry.kind), &entry);
-        EXPECT_GT(entry.prior.pieces, 0) << entry.name;
-        EXPECT_GT(entry.prior.spread, 0) << entry.name;
-        EXPECT_TRUE(entry.prior.least >= 0 && entry.prior.least < 1) << entry.name;
-        EXPECT_GT(entry.prior.fit_pieces, 0) << entry.name;
-        EXPECT_GT(entry.prior.fit_spread, 0) << entry.name;
+        for (const WorkPrior& prior : entry.priors) {
+            EXPECT_GT(prior.pieces, 0) << entry.name;
+            EXPECT_GT(prior.spread, 0) << entry.name;
+            EXPECT_TRUE(prior.least >= 0 && prior.least < 1) << entry.name;
+            EXPECT_GT(prior.fit_pieces, 0) << entry.name;
+            EXPECT_GT(prior.fit_spread, 0) << entry.name;
+        }
     }
-    EXPECT_EQ(entry_of(WorkKind::triangle).prior.pieces, 1) << "a piece is a triangle";
+    for (const WorkPrior& prior : entry_of(WorkKind::triangle).priors)
+        EXPECT_EQ(prior.pieces, 1) << "a piece is a triangle of the same drawing";
+}
+
+TEST(Drawing, HasANameOfItsOwnAndIsFoundByIt) {
+    for (const Drawing drawing : {Drawing::opengl, Drawing::native})
+        EXPECT_EQ(drawing_named(name_of(drawing)), drawing) << name_of(drawing);
+    for (const std::string_view other : {"", "GL", "native ", "vulkan"}) EXPECT_FALSE(drawing_named(other)) << other;
 }
 
 TEST(Work, AddsUpAndMultipliesKindByKind) {
     Work work{1, 20, 300, 4000};
-    work += Work{5, 6, 7, 8};
-    EXPECT_EQ(work, (Work{6, 26, 307, 4008}));
-    EXPECT_EQ(work * 2, (Work{12, 52, 614, 8016}));
+    work += Work{5, 6, 7, 8, 9};
+    EXPECT_EQ(work, (Work{6, 26, 307, 4008, 9}));
+    EXPECT_EQ(work * 2, (Work{12, 52, 614, 8016, 18}));
     EXPECT_EQ(work[WorkKind::motion_update], 4008);
 }
 
 TEST(Work, OfAnAxisIsItsKindsAlone) {
-    const Work work{1, 20, 300, 4000};
-    EXPECT_EQ(only_on<WorkAxis::frame>(work), Work{1});
+    const Work work{1, 20, 300, 4000, 50000, 600000};
+    EXPECT_EQ(only_on<WorkAxis::frame>(work), (Work{1, 0, 0, 0, 50000, 600000}));
     EXPECT_EQ(only_on<WorkAxis::shape>(work), (Work{0, 20, 300}));
     EXPECT_EQ(only_on<WorkAxis::motion>(work), (Work{0, 0, 0, 4000}));
 }

@@ -114,7 +114,7 @@ TEST(WorkPlant, ForecastsTheWorkOfEveryPairOfSteps) {
         for (const Step& splat : forecast.shapes) {
             Decision decision{splat.setting > 0 ? State::points : State::slowed, motion.setting, splat.setting};
             const Work work = plant.work(0, decision);
-            EXPECT_EQ(work[WorkKind::person], forecast.people);
+            EXPECT_EQ(only_on<WorkAxis::frame>(work), forecast.frame);
             EXPECT_EQ(work[WorkKind::motion_update], motion.work[WorkKind::motion_update]);
             EXPECT_EQ(work[WorkKind::triangle], splat.work[WorkKind::triangle]);
             EXPECT_EQ(work[WorkKind::point], splat.work[WorkKind::point]);
@@ -132,7 +132,7 @@ TEST(WorkPlant, ForecastsRunFromNoLossToTheMost) {
             ASSERT_GE(forecast->motion.size(), 2u);
             ASSERT_GE(forecast->shapes.size(), 2u);
             EXPECT_EQ(forecast->motion.front().loss_px, 0);
-            EXPECT_EQ(forecast->motion.front().work[WorkKind::motion_update], forecast->people);
+            EXPECT_EQ(forecast->motion.front().work[WorkKind::motion_update], forecast->frame[WorkKind::person]);
             EXPECT_EQ(forecast->shapes.front().loss_px, 0);
             EXPECT_EQ(forecast->shapes.front().work[WorkKind::point], 0);
             for (std::size_t i = 1; i < forecast->motion.size(); ++i) {

@@ -193,7 +193,7 @@ TEST(Recorded, TellsTheLawWhatTheTraceTold) {
         const Forecast& forecast = *scenario.plant->forecast(frame);
         EXPECT_TRUE(std::equal(forecast.motion.begin(), forecast.motion.end(), rows[i].motion.begin()));
         EXPECT_TRUE(std::equal(forecast.shapes.begin(), forecast.shapes.end(), rows[i].shapes.begin()));
-        EXPECT_EQ(forecast.people, rows[i].work[WorkKind::person]);
+        EXPECT_EQ(forecast.frame, only_on<WorkAxis::frame>(rows[i].work));
         EXPECT_EQ(scenario.plant->range(frame), rows[i].range);
         EXPECT_EQ(scenario.target.at(frame), rows[i].target_ms);
     }
@@ -258,7 +258,7 @@ TEST(ReferenceCrowd, ItsStatesCostAboutOneAThirdAndATenth) {
     EXPECT_NEAR(scenario.plant->cost_ms(50, {}), load, rounding * load);
     EXPECT_NEAR(scenario.plant->cost_ms(50, {State::slowed, 0.75 * range, 0}), load / 3, 0.1 * load / 3);
     EXPECT_NEAR(scenario.plant->cost_ms(50, {State::points, range / 6, 1.5}), load / 10, 0.1 * load / 10);
-    EXPECT_EQ(scenario.plant->forecast(50)->people, 20000);
+    EXPECT_EQ(scenario.plant->forecast(50)->frame[WorkKind::person], 20000);
 }
 
 TEST(ReferenceCrowd, AMillionFramesAreACourseInSeconds) {
@@ -306,7 +306,7 @@ TEST(Recorded, OwnRowsWithoutAnyForecastAreTheReferenceCrowds) {
     for (TraceRow& row : rows) row.motion.clear();
     const Scenario scenario = recorded_scenario(rows, own);
     const Plant& plant = *scenario.plant;
-    EXPECT_EQ(plant.forecast(7)->people, 20000);
+    EXPECT_EQ(plant.forecast(7)->frame[WorkKind::person], 20000);
     Decision decision = rows[7].decision;
     decision.motion_distance *= plant.range(7) / rows[7].range;
     EXPECT_NEAR(plant.cost_ms(7, decision), rows[7].frame_ms, 1e-9);
