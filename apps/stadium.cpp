@@ -4,7 +4,10 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
+#include <utility>
 
+#include "apps/canvas.h"
 #include "apps/free_camera.h"
 #include "apps/interrupt.h"
 #include "apps/program.h"
@@ -13,11 +16,7 @@
 #include "apps/stadium_options.h"
 #include "apps/stadium_outputs.h"
 #include "apps/stage.h"
-#include "render/gl/device.h"
-#include "render/gl/headless.h"
-#include "render/gl/renderer.h"
-#include "render/gl/timer.h"
-#include "render/gl/window.h"
+#include "render/renderer.h"
 #include "render/select.h"
 #include "scene/cameras.h"
 #include "sfsm/controller.h"
@@ -30,21 +29,6 @@ namespace apps {
 namespace {
 
 constexpr std::int64_t headless_frames = 300;
-
-// Where the pictures go: a window, or nowhere. Its context is current.
-struct Surface {
-    std::unique_ptr<render::gl::Window> window;
-    std::unique_ptr<render::gl::HeadlessContext> headless;
-
-    explicit Surface(const StadiumOptions& options) {
-        std::string obstacle;
-        if (!options.headless && render::gl::Window::display_available(&obstacle))
-            window = std::make_unique<render::gl::Window>("Grandstand", options.width, options.height);
-        else
-            headless = std::make_unique<render::gl::HeadlessContext>();
-        if (!obstacle.empty()) std::fprintf(stderr, "stadium: %s; drawing without a window\n", obstacle.c_str());
-    }
-};
 
 // What --state asks for in place of a law's decision; the distances are those the paper's machine starts and leaves at.
 sfsm::Decision fixed_decision(const StadiumOptions& options, sfsm::State state, double range) {
@@ -69,50 +53,51 @@ class Stadium {
 public:
     explicit Stadium(const StadiumOptions& options)
         : options_(options),
-          controller_(sfsm::make_controller(options.law)),
           path_from_file_(load_path(options.camera)),
-          surface_(options),
-          device_(render::gl::read_device()),
+          canvas_(options),
           stage_(build_stage(options.characters, options.people, options.seed, PointCache(options.cache),
-                             figures::by_opengl())),
+                             canvas_.models_way())),
           path_(path_from_file_ ? *path_from_file_ : stage_->place.cameras.named(options.camera)),
-          renderer_(stage_->place.structure, stage_->place.ground, stage_->place.light, stage_->figures(),
-                    options.width, options.height),
-          selector_(stage_->place.crowd, stage_->cast, stage_->figures()),
-          timer_(device_),
-          clock_(options.fixed_step || surface_.headless),
+          clock_(options.fixed_step || !canvas_.window()),
           width_(options.width),
           height_(options.height) {
+        canvas_.set_up(*stage_, options);
+        controller_ = sfsm::make_controller(options.law, canvas_.way().drawing);
+        render::SelectOptions select;
+        select.way = &canvas_.way();
+        selector_.emplace(stage_->place.crowd, stage_->cast, stage_->figures(), select);
         warm_up();
         stage_->place.crowd.filled_tick = std::llround(options.pour_in * motion::ticks_per_second);
     }
 
     void run(const StadiumOutputs& outputs) {
-        const std::int64_t frames = options_.frames.value_or(surface_.window ? 0 : headless_frames);
+        const std::int64_t frames = options_.frames.value_or(canvas_.window() ? 0 : headless_frames);
         ProgressBar bar("Drawing");
         for (std::int64_t frame = 0; (frames == 0 || frame < frames) && !interrupted(); ++frame) {
-            if (surface_.window && !follow_user()) break;
+            if (canvas_.window() && !follow_user()) break;
             if (const auto time = draw(frame)) learn(*time);
-            if (outputs.wants_picture(frame)) outputs.write_picture(frame, renderer_.read_image());
-            if (surface_.window) show(frame);
+            if (outputs.wants_picture(frame)) outputs.write_picture(frame, canvas_.renderer().read_image());
+            if (canvas_.window()) show(frame);
             if (frames > 0) bar(static_cast<double>(frame + 1) / static_cast<double>(frames));
             elapsed_ = clock_.advance();
         }
-        while (const auto time = timer_.drain()) learn(*time);
+        while (const auto time = canvas_.timer().drain()) learn(*time);
     }
 
-    render::Image picture() const { return renderer_.read_image(); }
+    render::Image picture() const { return canvas_.renderer().read_image(); }
     std::span<const sfsm::TraceRow> rows() const { return rows_; }
 
     // What a trace must say for the run to be repeated and its decisions verified.
     std::map<std::string, std::string> settings() const {
         return {
             {"version", GRANDSTAND_VERSION},
-            {"device", device_.renderer},
-            {"driver", device_.version},
+            {"draw", std::string(sfsm::name_of(canvas_.way().drawing))},
+            {"draw_because", canvas_.choice()},
+            {"device", canvas_.device()},
+            {"driver", canvas_.driver()},
             {"law", options_.law},
             {"state", options_.state ? std::to_string(static_cast<int>(*options_.state)) : "auto"},
-            {"delay", std::to_string(timer_.delay())},
+            {"delay", std::to_string(canvas_.timer().delay())},
             {"target_ms", options_.target.text()},
             {"people", std::to_string(options_.people)},
             {"pour_in_s", sfsm::number_text(options_.pour_in)},
@@ -121,21 +106,28 @@ public:
             {"size", std::to_string(width_) + "x" + std::to_string(height_)},
             {"splat_px", options_.splat_size ? sfsm::number_text(*options_.splat_size) : "default"},
             {"motion_distance_m", options_.motion_distance ? sfsm::number_text(*options_.motion_distance) : "default"},
-            {"step", options_.fixed_step || surface_.headless ? "1/60 s" : "wall clock"},
+            {"step", options_.fixed_step || !canvas_.has_window() ? "1/60 s" : "wall clock"},
             {"seed", std::to_string(options_.seed)}};
     }
 
 private:
-    // Shaders compile at the first draw that needs them: draw both representations before any time is taken.
+    // Shaders and tables are made at the first draw that needs them: one person of each character, drawn as they may
+    // be, before any time is taken.
     void warm_up() {
         throw_if_interrupted();
         const render::View view = view_now();
-        const float range = selector_.survey(view, 0).range;
+        const float range = selector_->survey(view, 0).range;
         for (const sfsm::State state : {sfsm::State::original, sfsm::State::points}) {
-            const sfsm::Decision decision = fixed_decision(options_, state, range);
-            renderer_.draw(selector_.select(decision, -1));
+            if (options_.state && (*options_.state == sfsm::State::points) != (state == sfsm::State::points)) continue;
+            render::Frame frame = selector_->select(fixed_decision(options_, state, range), -1);
+            std::set<std::pair<std::uint32_t, std::uint32_t>> kinds;
+            std::erase_if(frame.people, [&](const render::Person& person) {
+                return !kinds.emplace(person.character, person.representation).second;
+            });
+            canvas_.renderer().begin(view);
+            canvas_.renderer().draw(frame);
         }
-        renderer_.read_image();  // waits for them
+        canvas_.renderer().read_image();  // waits for them
     }
 
     render::View view_now() const {
@@ -143,13 +135,15 @@ private:
         return render::make_view(pose, width_, height_);
     }
 
-    std::optional<render::gl::FrameTime> draw(std::int64_t frame) {
+    std::optional<render::FrameTime> draw(std::int64_t frame) {
         const render::View view = view_now();
         sfsm::TraceRow row;
         row.frame = frame;
         row.target_ms = target_scale_ * options_.target.at(frame);
-        timer_.begin(frame);
-        const render::Survey& survey = selector_.survey(view, clock_.tick(), renderer_.work_around(view));
+        render::Renderer& renderer = canvas_.renderer();
+        render::FrameTimer& timer = canvas_.timer();
+        timer.begin(frame);
+        const render::Survey& survey = selector_->survey(view, clock_.tick(), renderer.begin(view));
         row.range = survey.range;
         row.decision = options_.state ? fixed_decision(options_, *options_.state, row.range)
                                       : controller_->decide({row.target_ms, row.range, &survey.forecast});
@@ -158,10 +152,10 @@ private:
             row.motion.assign(survey.forecast.motion.begin(), survey.forecast.motion.end());
             row.shapes.assign(survey.forecast.shapes.begin(), survey.forecast.shapes.end());
         }
-        const render::Frame& drawn = selector_.select(row.decision, last_tick_);
-        timer_.submit();
-        renderer_.draw(drawn);
-        const auto time = timer_.end();
+        const render::Frame& drawn = selector_->select(row.decision, last_tick_);
+        timer.submit();
+        renderer.draw(drawn);
+        const auto time = timer.end();
         row.work = drawn.work;
         row.drawn_state = drawn.state;
         rows_.push_back(row);
@@ -170,7 +164,7 @@ private:
     }
 
     // A time has arrived: it belongs to the decision of its own frame, which may be some frames back.
-    void learn(const render::gl::FrameTime& time) {
+    void learn(const render::FrameTime& time) {
         sfsm::TraceRow& row = rows_[static_cast<std::size_t>(time.frame)];
         row.frame_ms = last_ms_ = time.frame_ms;
         row.cpu_ms = time.cpu_ms;
@@ -180,7 +174,7 @@ private:
 
     // False: the user has left.
     bool follow_user() {
-        render::gl::Window& window = *surface_.window;
+        render::gl::Window& window = *canvas_.window();
         const render::Input input = window.poll();
         if (window.closed()) return false;
         if (!flight_ && FreeCamera::steers(input)) {
@@ -193,7 +187,7 @@ private:
         if (resized && window.width() > 0 && window.height() > 0) {
             width_ = window.width();
             height_ = window.height();
-            renderer_.resize(width_, height_);
+            canvas_.renderer().resize(width_, height_);
         }
         return true;
     }
@@ -226,7 +220,7 @@ private:
         for (int number = 1; name.empty() || std::filesystem::exists(name); ++number)
             name = "stadium-" + std::to_string(number) + ".png";
         try {
-            write_png(name, renderer_.read_image());
+            write_png(name, canvas_.renderer().read_image());
             std::fprintf(stderr, "stadium: saved %s\n", name.c_str());
         } catch (const std::exception& error) {
             std::fprintf(stderr, "stadium: %s\n", error.what());
@@ -235,17 +229,16 @@ private:
 
     void show(std::int64_t frame) {
         constexpr std::int64_t title_period = 10;  // [frames]; faster can't be read
-        if (frame % title_period == 0) surface_.window->set_title(title());
-        renderer_.present(surface_.window->width(), surface_.window->height());
-        surface_.window->swap();
+        if (frame % title_period == 0) canvas_.window()->set_title(title());
+        canvas_.present();
     }
 
     std::string title() const {
         const sfsm::TraceRow& row = rows_.back();
         const sfsm::Decision& decision = row.decision;
         char text[200];
-        int length = std::snprintf(text, sizeof text, "Grandstand  %.1f / %.1f ms  %lld people  state %d", last_ms_,
-                                   row.target_ms, static_cast<long long>(row.work[sfsm::WorkKind::person]),
+        int length = std::snprintf(text, sizeof text, "Grandstand  %s  %.1f / %.1f ms  %lld people  state %d",
+                                   sfsm::name_of(canvas_.way().drawing).data(), last_ms_, row.target_ms, static_cast<long long>(row.work[sfsm::WorkKind::person]),
                                    static_cast<int>(*row.drawn_state));
         if (decision.state != sfsm::State::original)
             length += std::snprintf(text + length, sizeof text - length, "  D %.0f m", decision.motion_distance);
@@ -265,13 +258,10 @@ private:
     const StadiumOptions& options_;
     std::unique_ptr<sfsm::Controller> controller_;
     std::optional<scene::CameraPath> path_from_file_;  // read first: a damaged one is known before any work is done
-    Surface surface_;
-    render::gl::Device device_;
+    Canvas canvas_;
     std::unique_ptr<Stage> stage_;
     scene::CameraPath path_;
-    render::gl::Renderer renderer_;
-    render::Selector selector_;
-    render::gl::FrameTimer timer_;
+    std::optional<render::Selector> selector_;
     SceneClock clock_;
     std::optional<FreeCamera> flight_;  // instead of the path once the user steers
     std::vector<sfsm::TraceRow> rows_;  // one a frame; the times come later

@@ -45,6 +45,11 @@ void set_size(StadiumOptions& options, const std::string& text) {
     options.height = *height;
 }
 
+void set_drawing(StadiumOptions& options, const std::string& name) {
+    options.draw = sfsm::drawing_named(name);
+    if (!options.draw && name != "auto") throw wrong_argument("--draw", "'" + name + "'", "auto, gl or native");
+}
+
 void set_state(StadiumOptions& options, const std::string& text) {
     if (text == "auto") {
         options.state.reset();
@@ -106,6 +111,11 @@ void add_output_options(CLI::App& app, StadiumOptions& options) {
     app.add_option_function<std::string>(
            "--size", [&](const std::string& text) { set_size(options, text); }, "Picture's WIDTHxHEIGHT [px]")
         ->default_str("1280x720");
+    app.add_option_function<std::string>(
+           "--draw", [&](const std::string& name) { set_drawing(options, name); },
+           "gl: by OpenGL 4.5; native: by the processor alone, OpenGL only shows it; auto: native where OpenGL is software "
+           "or missing, on a GPU the faster of the two")
+        ->default_str("auto");
     app.add_flag("--headless", options.headless, "No window, even if there is a display");
     app.add_option("--trace", options.trace, "Write a row a frame to this CSV file; - = stdout");
     app.add_option("--png", options.png, "Write the last frame to this PNG file; - = stdout");

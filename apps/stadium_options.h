@@ -10,6 +10,7 @@
 #include "apps/point_cache.h"
 #include "sfsm/controller.h"
 #include "sfsm/decision.h"
+#include "sfsm/drawing.h"
 #include "sfsm/target.h"
 
 namespace CLI {
@@ -22,6 +23,7 @@ struct StadiumOptions {
     std::int64_t people = 20000;  // [1, 1'000'000]
     std::vector<std::filesystem::path> characters;
     sfsm::TargetSchedule target = sfsm::TargetSchedule::parse(sfsm::default_target);
+    std::optional<sfsm::Drawing> draw;  // empty: whatever is faster
     std::string law = std::string(sfsm::law_names().front());
     std::optional<sfsm::State> state;               // empty: the law decides
     std::optional<double> splat_size;               // [px] of a fixed state 2

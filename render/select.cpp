@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace render {
 
@@ -44,26 +45,36 @@ void Selector::for_each_visible(Visit visit) const {
     for (const std::uint32_t block_index : visible_blocks_) {
         const scene::CrowdBlock& block = crowd_.blocks[block_index];
         for (std::size_t person = block.first; person < block.first + block.count; ++person)
-            if (depth_[person] != unseen) visit(person);
+            if (depth_[person] > 0) visit(person);
     }
 }
 
-const Survey& Selector::survey(const View& view, std::int64_t tick, const sfsm::Work& around) {
+const Survey& Selector::survey(const View& view, std::int64_t tick, const Surroundings& around) {
     view_ = view;
     tick_ = tick;
     around_ = around;
-    visible_blocks_.clear();
-    block_inside_.clear();
-    for (std::uint32_t block = 0; block < crowd_.blocks.size(); ++block) {
-        const Overlap seen = overlap(view, crowd_.blocks[block].box);
-        if (seen == Overlap::outside) continue;
-        visible_blocks_.push_back(block);
-        block_inside_.push_back(seen == Overlap::inside);
-    }
+    survey_.hidden = 0;
+    find_blocks();
     tbb::parallel_for(
         std::size_t{0}, visible_blocks_.size(), [&](std::size_t i) { find_visible(i); }, tbb::static_partitioner());
     forecast();
     return survey_;
+}
+
+void Selector::find_blocks() {
+    visible_blocks_.clear();
+    block_inside_.clear();
+    for (std::uint32_t block = 0; block < crowd_.blocks.size(); ++block) {
+        const scene::CrowdBlock& people = crowd_.blocks[block];
+        const Overlap seen = overlap(view_, people.box);
+        if (seen == Overlap::outside) continue;
+        if (around_.occlusion && around_.occlusion->hides_box(view_, people.box)) {
+            survey_.hidden += people.count;
+            continue;
+        }
+        visible_blocks_.push_back(block);
+        block_inside_.push_back(seen == Overlap::inside);
+    }
 }
 
 void Selector::find_visible(std::size_t block_index) {
@@ -72,18 +83,28 @@ void Selector::find_visible(std::size_t block_index) {
     for (std::size_t person = block.first; person < block.first + block.count; ++person) {
         const std::size_t character = crowd_.character[person];
         const Kind& kind = kinds_[character];
-        const float scale = scale_of(person);
+        const float scale = scale_of(person), radius = scale * kind.radius;
         const scene::Placement now = scene::place(crowd_, person, cast_[character], tick_);
         const glm::vec3 center = view_.relative(now.position) + scale * kind.center;
-        const bool hidden =
-            (cull && !sphere_visible(view_, center, scale * kind.radius)) || !scene::has_arrived(crowd_, person, tick_);
-        depth_[person] = hidden ? unseen : std::max(view_.depth(center), near_plane);
+        float& depth = depth_[person];
+        if ((cull && !sphere_visible(view_, center, radius)) || !scene::has_arrived(crowd_, person, tick_))
+            depth = unseen;
+        else if (around_.occlusion && around_.occlusion->hides_ball(view_, center, radius))
+            depth = behind;
+        else
+            depth = std::max(view_.depth(center), near_plane);
     }
 }
 
 void Selector::forecast() {
     survey_.range = 1.0f;
-    for_each_visible([&](std::size_t person) { survey_.range = std::max(survey_.range, depth_[person]); });
+    for (const std::uint32_t block_index : visible_blocks_) {
+        const scene::CrowdBlock& block = crowd_.blocks[block_index];
+        for (std::size_t person = block.first; person < block.first + block.count; ++person) {
+            survey_.range = std::max(survey_.range, depth_[person]);
+            survey_.hidden += depth_[person] == behind;
+        }
+    }
     forecaster_.begin(survey_.range);
     for_each_visible([&](std::size_t person) {
         const std::size_t character = crowd_.character[person];
@@ -91,14 +112,14 @@ void Selector::forecast() {
                         view_.pixels_per_metre(depth_[person]));
     });
     survey_.forecast = forecaster_.finish(options_.theta);
-    survey_.forecast.frame += around_;
+    survey_.forecast.frame += around_.work;
 }
 
 const Frame& Selector::select(const sfsm::Decision& decision, std::int64_t last_tick) {
     const auto consider_block = [&](std::size_t i) {
         const scene::CrowdBlock& block = crowd_.blocks[visible_blocks_[i]];
         for (std::size_t person = block.first; person < block.first + block.count; ++person)
-            if (depth_[person] != unseen) candidates_[person] = consider(person, decision, last_tick);
+            if (depth_[person] > 0) candidates_[person] = consider(person, decision, last_tick);
     };
     tbb::parallel_for(std::size_t{0}, visible_blocks_.size(), consider_block, tbb::static_partitioner());
     gather();
@@ -112,8 +133,12 @@ float Selector::scale_of(std::size_t person) const {
 }
 
 float Selector::demand_at_unit_splat(std::size_t person) const {
-    const float pixels = scale_of(person) * view_.pixels_per_metre(depth_[person]);
-    return options_.density * figures_[crowd_.character[person]].poses->area * pixels * pixels;
+    const std::size_t character = crowd_.character[person];
+    const float scale = scale_of(person);
+    if (depth_[person] < options_.way->nearest * scale * kinds_[character].radius)
+        return std::numeric_limits<float>::infinity();
+    const float pixels = scale * view_.pixels_per_metre(depth_[person]);
+    return options_.density * figures_[character].poses->area * pixels * pixels;
 }
 
 // Where the person is now decides whether they are seen and how often they move; both change little in a period.
@@ -154,7 +179,7 @@ Selector::Candidate Selector::consider(std::size_t person, const sfsm::Decision&
 
 void Selector::gather() {
     frame_.people.clear();
-    frame_.work = around_;
+    frame_.work = around_.work;
     bool is_slowed = false, is_simplified = false;
     for_each_visible([&](std::size_t person) {
         const Candidate& candidate = candidates_[person];

@@ -12,6 +12,7 @@
 #include "motion/schedule.h"
 #include "render/forecaster.h"
 #include "render/frame.h"
+#include "render/surroundings.h"
 #include "scene/crowd.h"
 #include "sfsm/decision.h"
 
@@ -31,6 +32,7 @@ struct SelectOptions {
 struct Survey {
     float range = 1;          // L [m]: the view depth of the farthest visible person, at least 1
     sfsm::Forecast forecast;  // valid until the next survey
+    std::int64_t hidden = 0;  // people in view, behind the structure: they aren't drawn
 };
 
 // A frame is surveyed, then selected from. Reuses its memory: after the first frames nothing is allocated.
@@ -40,9 +42,9 @@ public:
     Selector(const scene::Crowd& crowd, std::span<const scene::CastMember> cast,
              std::span<const figures::Figure> figures, SelectOptions options = {});
 
-    // Finds the visible people at `tick`, and what drawing them would cost. `around`: the work of all that is drawn
-    // besides people, in the view alone (WorkAxis::frame); it is counted into the forecast and into the frames.
-    const Survey& survey(const View& view, std::int64_t tick, const sfsm::Work& around = {});
+    // Finds the visible people at `tick`, and what drawing them would cost. `around`: of that view; its work is counted
+    // into the forecast and into the frames.
+    const Survey& survey(const View& view, std::int64_t tick, const Surroundings& around = {});
 
     // The surveyed people under `decision`; those whose motion was due since `last_tick` are counted as moved.
     const Frame& select(const sfsm::Decision& decision, std::int64_t last_tick);
@@ -62,8 +64,9 @@ private:
         glm::vec3 center{0.0f};
         float radius = 0;
     };
-    static constexpr float unseen = -1.0f;
+    static constexpr float unseen = -1.0f, behind = -2.0f;
 
+    void find_blocks();
     void find_visible(std::size_t block_index);
     void forecast();
     Candidate consider(std::size_t person, const sfsm::Decision& decision, std::int64_t last_tick) const;
@@ -81,10 +84,10 @@ private:
 
     View view_;
     std::int64_t tick_ = 0;
-    sfsm::Work around_;
+    Surroundings around_;
     std::vector<std::uint32_t> visible_blocks_;
     std::vector<std::uint8_t> block_inside_;  // per visible block: no need to cull its people one by one
-    std::vector<float> depth_;                // [m] per person of visible blocks; unseen: not in view
+    std::vector<float> depth_;                // [m] per person of visible blocks; unseen: not in view; behind: hidden
     Forecaster forecaster_;
     Survey survey_;
 

@@ -12,33 +12,31 @@
 #include "render/gl/backdrop.h"
 #include "render/gl/figure_drawer.h"
 #include "render/gl/objects.h"
-#include "render/image.h"
+#include "render/renderer.h"
 #include "scene/ground.h"
 #include "scene/light.h"
 #include "scene/static_mesh.h"
 
 namespace render::gl {
 
-class Renderer {
+class Renderer final : public render::Renderer {
 public:
     // Needs a current OpenGL 4.5 context. `figures` in the order of Crowd::character; what they point at is needed only
     // here. width, height >= 1. Throws std::runtime_error when the driver refuses.
     Renderer(const scene::StaticMesh& structure, const scene::Ground& ground, const scene::Light& light,
              std::span<const figures::Figure> figures, int width, int height);
 
-    void resize(int width, int height);
+    void resize(int width, int height) override;
 
-    // What a frame of this view draws besides people.
-    sfsm::Work work_around(const View& view) const { return backdrop_.work(view); }
+    Surroundings begin(const View& view) override { return {backdrop_.work(view), nullptr}; }
 
     // Draws into the renderer's own target; splats are at least one pixel wide.
-    void draw(const Frame& frame);
+    void draw(const Frame& frame) override;
 
     // Copies the target to the window's framebuffer, stretched to it.
     void present(int window_width, int window_height) const;
 
-    // What was drawn last. Waits for it.
-    Image read_image() const;
+    Image read_image() const override;
 
 private:
     // A run of indirect commands of one character and one representation.

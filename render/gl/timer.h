@@ -7,32 +7,23 @@
 #include <cstdint>
 #include <optional>
 
+#include "render/frame_time.h"
 #include "render/gl/device.h"
 #include "render/gl/objects.h"
 
 namespace render::gl {
 
-struct FrameTime {
-    std::int64_t frame = 0;
-    double frame_ms = 0;  // what holds the target: the slower of the two on a GPU, all of it on a CPU
-    double cpu_ms = 0;    // to choose and submit
-    double gpu_ms = 0;    // NaN on a software device
-};
-
-class FrameTimer {
+class FrameTimer final : public render::FrameTimer {
 public:
     explicit FrameTimer(const Device& device);
 
-    // Frames between the end of one and the arrival of its time: 0 with a clock, ring_size - 1 with queries.
-    int delay() const { return software_ ? 0 : ring_size - 1; }
+    // 0 with a clock, ring_size - 1 with queries.
+    int delay() const override { return software_ ? 0 : ring_size - 1; }
 
-    void begin(std::int64_t frame);
-    // From here on commands are submitted: what the GPU waits for before is not its work.
-    void submit();
-    // The time of frame - delay(), if there was one.
-    std::optional<FrameTime> end();
-    // The times that were still under way, oldest first, until there is none.
-    std::optional<FrameTime> drain();
+    void begin(std::int64_t frame) override;
+    void submit() override;
+    std::optional<FrameTime> end() override;
+    std::optional<FrameTime> drain() override;
 
 private:
     static constexpr int ring_size = 3;

@@ -131,20 +131,23 @@ bool Window::display_available(std::string* obstacle) {
     return started;
 }
 
-Window::Window(const std::string& title, int width, int height) {
+Window::Window(const std::string& title, int width, int height, Use use) {
     std::string refusals;
     if (!start(refusals))
         throw std::runtime_error("window: found no usable display (" + (refusals.empty() ? "none is named" : refusals) +
                                  "), expected X11 or Wayland; --headless needs none");
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
-    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    if (use == Use::draw) {
+        glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
+        glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
+        glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    }
     glfwWindowHint(GLFW_DEPTH_BITS, 0);  // drawing happens in the renderer's own target
     window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
     if (!window_) {
         const std::string why = glfw_error();
         glfwTerminate();
-        throw std::runtime_error("window: found no OpenGL 4.5 core on this display (" + why +
+        const std::string wanted = use == Use::draw ? "OpenGL 4.5 core" : "OpenGL";
+        throw std::runtime_error("window: found no " + wanted + " on this display (" + why +
                                  "), expected one; --headless may have it");
     }
     glfwMakeContextCurrent(window_);

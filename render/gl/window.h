@@ -12,8 +12,11 @@ namespace render::gl {
 
 class Window {
 public:
+    // What its context is for: to draw takes OpenGL 4.5 core, to show pictures whatever there is.
+    enum class Use { draw, show };
+
     // Makes its context current. Throws std::runtime_error saying what GLFW found.
-    Window(const std::string& title, int width, int height);
+    Window(const std::string& title, int width, int height, Use use);
     ~Window();
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;

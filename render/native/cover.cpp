@@ -19,14 +19,19 @@
 
 namespace render::native {
 
+// Who lays something on a pixel of which no more is open than this can't be seen.
+inline constexpr std::int16_t closed = pixel_full / 4096;
+
 // A row of a patch of cells as large as pixels, and what it is laid into, from the same pixel on.
 struct CoverRow {
     std::int16_t* cells;
     std::uint64_t used;   // groups of cells
     Cover* cover;
     Flock* flock;
-    const float* depth;   // of the backdrop
     int first, last;      // only these cells are in the tile
+    // near_plane / view depth at each pixel: what hides people behind it; and, if not null, what people must be behind.
+    const float* hidden_behind;
+    const float* shown_behind;
 };
 
 }  // namespace render::native
@@ -49,14 +54,14 @@ using Floats = hn::Vec<decltype(floats)>;
 constexpr int most_lanes = 16;
 
 // How far back each pixel lets people be seen, in their reach from their middle, 32767 = 1. Outside of the tile nowhere.
-void find_limits(const SplatPerson& person, const CoverRow& row, std::int16_t* limits) {
+void find_limits(const SplatPerson& person, const CoverRow& row, const float* depth, std::int16_t* limits) {
     constexpr std::int16_t nowhere = -32768;
     const hn::Rebind<std::int16_t, decltype(floats)> out;
     const auto nearest = hn::Set(floats, near_plane), middle = hn::Set(floats, person.depth);
     const auto scale = hn::Set(floats, 32767.0f / person.reach), most = hn::Set(floats, 32767.0f);
     std::fill(limits, limits + row.first, nowhere);
     for (int x = row.first; x < row.last; x += static_cast<int>(hn::Lanes(floats))) {
-        const auto behind = hn::Div(nearest, hn::LoadU(floats, row.depth + x));
+        const auto behind = hn::Div(nearest, hn::LoadU(floats, depth + x));
         const auto limit = hn::Mul(hn::Sub(behind, middle), scale);
         const auto clamped = hn::Max(hn::Min(limit, most), hn::Neg(most));
         hn::StoreU(hn::DemoteTo(out, hn::ConvertTo(ints, clamped)), out, limits + x);
@@ -97,12 +102,51 @@ Vector thinning(Vector share) {
 
 Floats part(hn::Vec<decltype(shorts)> fixed) { return hn::ConvertTo(floats, hn::PromoteTo(ints, fixed)); }
 
+// Of four cells the mean by how far a pixel is from them: `across` and `down`, 32767 = 1.
+void mix(const std::int16_t* cell, int stride, std::int16_t across, std::int16_t down, std::int16_t* to) {
+    const hn::FixedTag<std::int16_t, 8> lanes;
+    const auto between = [&](auto a, auto b, std::int16_t share) HWY_ATTR {
+        return hn::Add(a, hn::MulFixedPoint15(hn::Sub(b, a), hn::Set(lanes, share)));
+    };
+    const auto row = [&](const std::int16_t* at) HWY_ATTR {
+        return between(hn::Load(lanes, at), hn::Load(lanes, at + 8), across);
+    };
+    hn::Store(between(row(cell), row(cell + 8 * stride), down), lanes, to);
+}
+
 }  // namespace
+
+// A row of pixels out of a patch of larger cells: `x0` is the first of `count`, `y` the row. Returns which groups of
+// pixels aren't all 0.
+std::uint64_t StretchRow(const Patch& patch, float cell, int x0, int count, int y, std::int16_t* pixels) {
+    struct At {
+        int cell;
+        std::int16_t share;  // of the next one
+    };
+    const auto at = [&](int pixel, int first, int size) {
+        const float place = (static_cast<float>(pixel) + 0.5f) / cell - 0.5f - static_cast<float>(first);
+        const float clamped = std::clamp(place, 0.0f, static_cast<float>(size - 1) - 0.001f);
+        const int whole = static_cast<int>(clamped);
+        return At{whole, static_cast<std::int16_t>((clamped - static_cast<float>(whole)) * 32767.0f)};
+    };
+    const At row = at(y, patch.y0, patch.height);
+    if ((patch.used[row.cell] | patch.used[row.cell + 1]) == 0) return 0;
+    for (int i = 0; i < count; ++i) {
+        const At column = at(x0 + i, patch.x0, patch.width);
+        mix(patch.cells + 8 * (row.cell * patch.stride + column.cell), patch.stride, column.share, row.share,
+            pixels + 8 * i);
+    }
+    const int groups = (count + group_cells - 1) / group_cells;
+    for (int i = 8 * count; i < 8 * groups * group_cells; ++i) pixels[i] = 0;
+    return groups == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << groups) - 1;
+}
 
 // Lays the used cells, and leaves them all 0.
 void LayRow(const SplatPerson& person, const CoverRow& row) {
     alignas(64) std::int16_t limits[largest_patch_side + 2 * most_lanes];
-    find_limits(person, row, limits);
+    find_limits(person, row, row.hidden_behind, limits);
+    alignas(64) std::int16_t begins[largest_patch_side + 2 * most_lanes];
+    if (row.shown_behind) find_limits(person, row, row.shown_behind, begins);
     constexpr int step = static_cast<int>(hn::MaxLanes(cells)) / 4;
     const auto depth = all(person.depth_code), thickness = all(person.thickness);
     const hn::Repartition<std::uint64_t, Cells> words;
@@ -127,8 +171,10 @@ void LayRow(const SplatPerson& person, const CoverRow& row) {
             const auto apart = hn::Sub(depth, spread<1>(others));
             const auto beside = hn::And(hn::Gt(apart, all(-1)), hn::Lt(apart, thickness));
             const auto before = hn::IfThenElse(beside, spread<0>(others), open);
-            const auto shown = hn::And(hn::Lt(back, hn::MulFixedPoint15(share, spread_four(limits + group, i))),
-                                       hn::Gt(open, all(pixel_full / 4096)));
+            auto shown = hn::And(hn::Lt(back, hn::MulFixedPoint15(share, spread_four(limits + group, i))),
+                                 hn::Gt(open, all(closed)));
+            if (row.shown_behind)
+                shown = hn::AndNot(hn::Lt(back, hn::MulFixedPoint15(share, spread_four(begins + group, i))), shown);
             hn::StoreU(hn::SaturatedAdd(there, hn::IfThenElseZero(shown, hn::MulFixedPoint15(unit, before))), cells, to);
             const auto joined = hn::IfThenElse(beside, spread<1>(others), depth);
             hn::StoreU(hn::IfThenElse(hn::And(shown, hn::Gt(share, hn::Zero(cells))), hn::OddEven(joined, before), others), cells, flock);
@@ -174,35 +220,106 @@ HWY_AFTER_NAMESPACE();
 namespace render::native {
 
 HWY_EXPORT(LayRow);
+HWY_EXPORT(StretchRow);
 HWY_EXPORT(ResolveRow);
 
-CoverTile::CoverTile() : cover_(std::size_t{stride} * (tile_side + 2)), flocks_(cover_.size()) {}
+CoverTile::CoverTile()
+    : cover_(std::size_t{stride} * (tile_side + 2)),
+      flocks_(cover_.size()),
+      stretched_(std::size_t{8} * stride),
+      limits_(stride) {}
 
-void CoverTile::begin(const Tile& tile) {
+void CoverTile::begin(const Tile& tile, const BackdropPicture& behind) {
     tile_ = tile;
+    behind_ = &behind;
     std::memset(cover_.data(), 0, cover_.size() * sizeof(Cover));
     std::fill(flocks_.begin(), flocks_.end(), Flock{});
 }
 
-void CoverTile::lay(const SplatPerson& person, const Patch& patch, const BackdropPicture& behind) {
-    const auto lay_row = HWY_DYNAMIC_DISPATCH(LayRow);
-    const int first = std::max(tile_.x0 - patch.x0, 0), last = std::min(tile_.x1 - patch.x0, patch.width);
-    for (int y = 0; y < patch.height; ++y) {
-        const std::uint64_t used = std::exchange(patch.used[y], 0);
-        if (used == 0) continue;
-        const int row = std::clamp(patch.y0 + y, tile_.y0, tile_.y1 - 1);
-        const bool is_within = row == patch.y0 + y;
-        lay_row(person, {patch.cells + std::ptrdiff_t{8} * patch.stride * y, used,
-                         &cover_[index_of(patch.x0, patch.y0 + y)], &flocks_[index_of(patch.x0, patch.y0 + y)],
-                         behind.depth.row(row) + patch.x0, is_within ? first : 0, is_within ? last : 0});
+bool CoverTile::is_full(const Rect& pixels) const {
+    const int x0 = std::max(pixels.x0, tile_.x0), x1 = std::min(pixels.x1, tile_.x1);
+    for (int y = std::max(pixels.y0, tile_.y0); y < std::min(pixels.y1, tile_.y1); ++y) {
+        const Cover* row = &cover_[index_of(0, y)];
+        for (int x = x0; x < x1; ++x)
+            if (row[x].share < pixel_full - closed) return false;
+    }
+    return true;
+}
+
+void CoverTile::lay(const NearLayer& near) {
+    const Rect& touched = near.touched();
+    for (int y = touched.y0; y < touched.y1; ++y) {
+        const std::uint16_t* from = near.rgba(y) + 4 * (touched.x0 - tile_.x0);
+        auto* to = &cover_[index_of(touched.x0, y)].red;
+        for (int i = 0; i < touched.x1 - touched.x0; ++i, from += 4, to += 4) {
+            const int open = pixel_full - std::min(to[3], pixel_full);
+            for (int lane = 0; lane < 4; ++lane)
+                to[lane] = static_cast<std::uint16_t>(to[lane] + ((from[lane] * open + (1 << 14)) >> 15));
+        }
     }
 }
 
-void CoverTile::resolve(const BackdropPicture& behind, Plane<std::uint32_t>& out) {
-    const auto resolve_row = HWY_DYNAMIC_DISPATCH(ResolveRow);
+// Depths of the near layer's pixels from the tile's first on, in a row of its own: what it covers, or its and the
+// backdrop's.
+const float* CoverTile::find_limits(const NearLayer& near, int y, bool with_backdrop) {
+    const Rect& touched = near.touched();
+    if (with_backdrop)
+        std::copy_n(behind_->depth.row(y) + tile_.x0, tile_side, limits_.begin());
+    else
+        std::fill(limits_.begin(), limits_.end(), 0.0f);
+    if (y < touched.y0 || y >= touched.y1) return limits_.data();
+    const float* depth = near.depth(y);
+    for (int x = touched.x0 - tile_.x0; x < touched.x1 - tile_.x0; ++x) limits_[x] = std::max(limits_[x], depth[x]);
+    return limits_.data();
+}
+
+void CoverTile::lay_row(const SplatPerson& person, std::int16_t* cells, std::uint64_t used, Tile part,
+                        const NearLayer* near, Layers layers) {
+    const int y = part.y0, row = std::clamp(y, tile_.y0, tile_.y1 - 1);
+    const bool is_within = row == y;
+    CoverRow out{cells,
+                 used,
+                 &cover_[index_of(part.x0, y)],
+                 &flocks_[index_of(part.x0, y)],
+                 is_within ? std::max(tile_.x0 - part.x0, 0) : 0,
+                 is_within ? std::min(tile_.x1, part.x1) - part.x0 : 0,
+                 behind_->depth.row(row) + part.x0,
+                 nullptr};
+    if (layers != Layers::all) {
+        const float* limits = find_limits(*near, row, layers == Layers::before_near) + part.x0 - tile_.x0;
+        (layers == Layers::before_near ? out.hidden_behind : out.shown_behind) = limits;
+    }
+    HWY_DYNAMIC_DISPATCH(LayRow)(person, out);
+}
+
+void CoverTile::lay(const SplatPerson& person, const Patch& patch, const NearLayer* near, Layers layers) {
+    if (person.cell > 1.0f) return lay_stretched(person, patch, near, layers);
+    for (int y = 0; y < patch.height; ++y) {
+        const std::uint64_t used = std::exchange(patch.used[y], 0);
+        if (used == 0) continue;
+        lay_row(person, patch.cells + std::ptrdiff_t{8} * patch.stride * y, used,
+                {patch.x0, patch.y0 + y, patch.x0 + patch.width, patch.y0 + y + 1}, near, layers);
+    }
+}
+
+void CoverTile::lay_stretched(const SplatPerson& person, const Patch& patch, const NearLayer* near, Layers layers) {
+    const Rect pixels = person.bounds();
+    const int x0 = std::max(pixels.x0, tile_.x0), x1 = std::min(pixels.x1, tile_.x1);
+    for (int y = std::max(pixels.y0, tile_.y0); x0 < x1 && y < std::min(pixels.y1, tile_.y1); ++y) {
+        const std::uint64_t used =
+            HWY_DYNAMIC_DISPATCH(StretchRow)(patch, person.cell, x0, x1 - x0, y, stretched_.data());
+        if (used != 0) lay_row(person, stretched_.data(), used, {x0, y, x1, y + 1}, near, layers);
+    }
+    for (int y = 0; y < patch.height; ++y)
+        for (std::uint64_t left = std::exchange(patch.used[y], 0); left != 0; left &= left - 1)
+            std::fill_n(patch.cells + std::ptrdiff_t{8} * (patch.stride * y + group_cells * std::countr_zero(left)),
+                        8 * group_cells, std::int16_t{0});
+}
+
+void CoverTile::resolve(Plane<std::uint32_t>& out) {
     for (int y = tile_.y0; y < tile_.y1; ++y)
-        resolve_row(&cover_[index_of(tile_.x0, y)], behind.color.row(y) + tile_.x0,
-                    out.row(y) + tile_.x0, tile_.x1 - tile_.x0);
+        HWY_DYNAMIC_DISPATCH(ResolveRow)(&cover_[index_of(tile_.x0, y)], behind_->color.row(y) + tile_.x0,
+                                         out.row(y) + tile_.x0, tile_.x1 - tile_.x0);
 }
 
 }  // namespace render::native

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "render/native/near_layer.h"
 #include "render/native/picture.h"
 #include "render/native/splat.h"
 
@@ -21,30 +22,51 @@ struct Flock {
     std::uint16_t padding[2] = {};
 };
 
+// Which part of a person is laid where there is a near layer.
+enum class Layers {
+    all,          // there is none
+    before_near,  // what isn't behind it
+    behind_near,  // what is
+};
+
 // One a thread: everything of a tile that isn't in the picture yet.
 class CoverTile {
 public:
     CoverTile();
 
-    void begin(const Tile& tile);
+    // Forgets. `behind` is read until resolve().
+    void begin(const Tile& tile, const BackdropPicture& behind);
     const Tile& tile() const { return tile_; }
 
-    // Lays a patch behind what is there, where it is nearer than the backdrop, and leaves it all 0.
-    void lay(const SplatPerson& person, const Patch& patch, const BackdropPicture& behind);
+    // Whether nothing that is laid within these pixels would be seen any more.
+    bool is_full(const Rect& pixels) const;
+
+    // Lays a patch behind what is there, where it is nearer than the backdrop, and leaves it all 0. `near`: the tile's,
+    // needed if it isn't all that is laid.
+    void lay(const SplatPerson& person, const Patch& patch, const NearLayer* near, Layers layers);
+    // Lays a resolved layer of the tile behind what is there.
+    void lay(const NearLayer& near);
 
     // Puts the tile into the picture: the backdrop shows through where nobody covers it.
-    void resolve(const BackdropPicture& behind, Plane<std::uint32_t>& out);
+    void resolve(Plane<std::uint32_t>& out);
 
 private:
     // A pixel around the tile, and a whole group of cells to the right, take what is laid beyond it.
-    static constexpr int stride = tile_side + 2 * group_cells;
+    static constexpr int stride = tile_side + 3 * group_cells;
     std::size_t index_of(int x, int y) const {
         return static_cast<std::size_t>(y - tile_.y0 + 1) * stride + (x - tile_.x0 + group_cells);
     }
+    void lay_row(const SplatPerson& person, std::int16_t* cells, std::uint64_t used, Tile part, const NearLayer* near,
+                 Layers layers);
+    void lay_stretched(const SplatPerson& person, const Patch& patch, const NearLayer* near, Layers layers);
+    const float* find_limits(const NearLayer& near, int y, bool with_backdrop);
 
     Tile tile_;
+    const BackdropPicture* behind_ = nullptr;
     std::vector<Cover> cover_;
     std::vector<Flock> flocks_;
+    Array<std::int16_t> stretched_;  // a row of pixels of a stretched patch
+    std::vector<float> limits_;      // a row of depths
 };
 
 }  // namespace render::native

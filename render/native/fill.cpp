@@ -253,7 +253,7 @@ void block_range(VInt least, VInt most, int first, int end, VInt& from, VInt& to
     from = hn::Max(hn::ShiftRight<2>(first_sample), hn::Set(i, first));
     to = hn::Min(hn::Add(hn::ShiftRight<2>(last_sample), hn::Set(i, 1)), hn::Set(i, end));
 }
-static_assert(grid_per_sample == 16 && block_side == 4);
+static_assert(grid_per_sample == 16 && sample_block_side == 4);
 
 // Those lanes of `out` that have any block; a bit each.
 std::uint32_t set_up(const FacingTriangles& facing, std::uint32_t first, const Blocks& tile, EdgeGroup& out) {
@@ -385,7 +385,7 @@ RichShading rich_shading(const PersonMesh& mesh, const Face& face, const std::ui
 
 void fill_person(const PersonMesh& mesh, const FacingTriangles& facing, int origin_x, int origin_y,
                  const LitVertex* vertices, const Tint* tints, NearLayer& layer) {
-    const int origin_column = origin_x / block_side, origin_row = origin_y / block_side;
+    const int origin_column = origin_x / sample_block_side, origin_row = origin_y / sample_block_side;
     const Blocks tile{layer.first_column() - origin_column, layer.end_column() - origin_column,
                       layer.first_row() - origin_row, layer.end_row() - origin_row};
     EdgeGroup edges;
@@ -436,12 +436,12 @@ WideEdge edge_between(const WideTriangle& t, int from, int to) {
 // 32 bits are enough for a sign: within a block an edge changes by less than this limit.
 std::int32_t clamped(std::int64_t edge) {
     constexpr std::int64_t limit = 1 << 30;
-    static_assert(2 * std::int64_t{block_side} * grid_per_sample * 2 * wide_reach <= limit);
+    static_assert(2 * std::int64_t{sample_block_side} * grid_per_sample * 2 * wide_reach <= limit);
     return static_cast<std::int32_t>(std::clamp(edge, -limit, limit));
 }
 
 Blocks blocks_of(const WideTriangle& t, const NearLayer& layer) {
-    constexpr int step = block_side * grid_per_sample;
+    constexpr int step = sample_block_side * grid_per_sample;
     const auto [min_x, max_x] = std::minmax({t.x[0], t.x[1], t.x[2]});
     const auto [min_y, max_y] = std::minmax({t.y[0], t.y[1], t.y[2]});
     const auto block = [](std::int32_t at) { return at >= 0 ? at / step : -1; };  // none is left of the picture
@@ -464,8 +464,8 @@ void fill_wide(const TextureLayers& textures, const WideTriangle& t, NearLayer& 
     const RichShading shades = rich_shading(textures, t.corners, t.layer, slopes);
     for (int row = blocks.first_row; row < blocks.end_row; ++row) {
         for (int column = blocks.first_column; column < blocks.end_column; ++column) {
-            const std::int64_t x = (std::int64_t{block_side} * column) * grid_per_sample + grid_per_sample / 2;
-            const std::int64_t y = (std::int64_t{block_side} * row) * grid_per_sample + grid_per_sample / 2;
+            const std::int64_t x = (std::int64_t{sample_block_side} * column) * grid_per_sample + grid_per_sample / 2;
+            const std::int64_t y = (std::int64_t{sample_block_side} * row) * grid_per_sample + grid_per_sample / 2;
             const auto share = [&](const WideEdge& edge) {
                 return hn::Set(f, static_cast<float>(static_cast<double>(edge.at(x, y)) * over_area));
             };

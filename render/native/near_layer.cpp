@@ -66,8 +66,8 @@ namespace {
 
 // Depths of the backdrop at a block's four pixels. The last ones may lie outside of the picture, where nobody looks.
 std::array<float, 4> depths_behind(const BackdropPicture& behind, int column, int row) {
-    const int x0 = block_pixels * column, x1 = std::min(x0 + 1, behind.width - 1);
-    const int y0 = block_pixels * row, y1 = std::min(y0 + 1, behind.height - 1);
+    const int x0 = sample_block_pixels * column, x1 = std::min(x0 + 1, behind.width - 1);
+    const int y0 = sample_block_pixels * row, y1 = std::min(y0 + 1, behind.height - 1);
     const float* upper = behind.depth.row(y0);
     const float* lower = behind.depth.row(y1);
     return {upper[x0], upper[x1], lower[x0], lower[x1]};
@@ -81,7 +81,7 @@ NearLayer::NearLayer()
       depth_(hwy::AllocateAligned<float>(std::size_t{tile_side} * tile_side)) {}
 
 void NearLayer::begin(const Tile& tile, const BackdropPicture& behind) {
-    assert(tile.x0 % block_pixels == 0 && tile.y0 % block_pixels == 0);
+    assert(tile.x0 % sample_block_pixels == 0 && tile.y0 % sample_block_pixels == 0);
     assert(tile.x1 - tile.x0 <= tile_side && tile.y1 - tile.y0 <= tile_side);
     tile_ = tile;
     behind_ = &behind;
@@ -114,13 +114,13 @@ void NearLayer::resolve() {
     const auto resolve_one = HWY_DYNAMIC_DISPATCH(resolve_block);
     for (int y = blocks.y0; y < blocks.y1; ++y) {
         for (int x = blocks.x0; x < blocks.x1; ++x) {
-            const std::ptrdiff_t pixel = std::ptrdiff_t{tile_side} * block_pixels * y + block_pixels * x;
+            const std::ptrdiff_t pixel = std::ptrdiff_t{tile_side} * sample_block_pixels * y + sample_block_pixels * x;
             std::uint16_t* const rgba[] = {rgba_.get() + 4 * pixel, rgba_.get() + 4 * (pixel + tile_side)};
             float* const depth[] = {depth_.get() + pixel, depth_.get() + pixel + tile_side};
             if ((begun_[y] >> x & 1) == 0) {
-                for (int i = 0; i < block_pixels; ++i) {
-                    std::fill_n(rgba[i], 4 * block_pixels, std::uint16_t{0});
-                    std::fill_n(depth[i], block_pixels, 0.0f);
+                for (int i = 0; i < sample_block_pixels; ++i) {
+                    std::fill_n(rgba[i], 4 * sample_block_pixels, std::uint16_t{0});
+                    std::fill_n(depth[i], sample_block_pixels, 0.0f);
                 }
                 continue;
             }
@@ -128,9 +128,9 @@ void NearLayer::resolve() {
             resolve_one(blocks_[y * blocks_across + x], behind.data(), rgba, depth);
         }
     }
-    touched_ = {tile_.x0 + block_pixels * blocks.x0, tile_.y0 + block_pixels * blocks.y0,
-                std::min(tile_.x0 + block_pixels * blocks.x1, tile_.x1),
-                std::min(tile_.y0 + block_pixels * blocks.y1, tile_.y1)};
+    touched_ = {tile_.x0 + sample_block_pixels * blocks.x0, tile_.y0 + sample_block_pixels * blocks.y0,
+                std::min(tile_.x0 + sample_block_pixels * blocks.x1, tile_.x1),
+                std::min(tile_.y0 + sample_block_pixels * blocks.y1, tile_.y1)};
 }
 
 }  // namespace render::native

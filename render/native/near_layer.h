@@ -17,9 +17,9 @@ struct Rect {
 };
 
 inline constexpr int samples_across = 2;  // a pixel has as many samples across, and down, evenly spaced
-inline constexpr int block_pixels = 2;    // a block is so many pixels wide and high,
-inline constexpr int block_side = samples_across * block_pixels;  // and so many samples:
-inline constexpr int block_samples = block_side * block_side;
+inline constexpr int sample_block_pixels = 2;    // a block is so many pixels wide and high,
+inline constexpr int sample_block_side = samples_across * sample_block_pixels;  // and so many samples:
+inline constexpr int block_samples = sample_block_side * sample_block_side;
 inline constexpr float full = 32767;  // a colour or coverage of 1
 
 // Sample i is number i / 4 in its pixel and of pixel i % 4 in its block, both row by row: what a pixel is the mean of
@@ -56,10 +56,10 @@ public:
     Rect touched() const { return touched_; }
 
     // For who draws. Blocks are counted from the picture's corner; those of this tile are [first, end).
-    int first_column() const { return tile_.x0 / block_pixels; }
-    int first_row() const { return tile_.y0 / block_pixels; }
-    int end_column() const { return (tile_.x1 + block_pixels - 1) / block_pixels; }
-    int end_row() const { return (tile_.y1 + block_pixels - 1) / block_pixels; }
+    int first_column() const { return tile_.x0 / sample_block_pixels; }
+    int first_row() const { return tile_.y0 / sample_block_pixels; }
+    int end_column() const { return (tile_.x1 + sample_block_pixels - 1) / sample_block_pixels; }
+    int end_row() const { return (tile_.y1 + sample_block_pixels - 1) / sample_block_pixels; }
     // Of this tile; begins at the backdrop's depth.
     Block& block(int column, int row) {
         const int x = column - first_column(), y = row - first_row();
@@ -73,7 +73,7 @@ public:
     }
 
 private:
-    static constexpr int blocks_across = tile_side / block_pixels;
+    static constexpr int blocks_across = tile_side / sample_block_pixels;
     static_assert(blocks_across <= 64);  // a bit each
 
     std::ptrdiff_t row_start(int y) const { return std::ptrdiff_t{tile_side} * (y - tile_.y0); }

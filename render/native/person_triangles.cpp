@@ -187,7 +187,7 @@ Rect PersonTriangles::place(const View& view, const Daylight& daylight, const Pe
 
 Rect PersonTriangles::place_on_grid(const View& view, const PersonMesh& mesh, const Extent& extent) {
     const auto block_at = [](std::int32_t min, std::int32_t max) {
-        return block_side * floor_divided(min + (max - min) / 2, block_side * grid_per_sample);
+        return sample_block_side * floor_divided(min + (max - min) / 2, sample_block_side * grid_per_sample);
     };
     origin_x_ = block_at(extent.min_x, extent.max_x);
     origin_y_ = block_at(extent.min_y, extent.max_y);

@@ -46,9 +46,23 @@ void PointPeople::prepare(const View& view, double splat_size, std::span<const P
         if (!kinds_[person->character]) make_kind(person->character);
     const float cell = std::max(1.0f, static_cast<float>(splat_size));
     people_.resize(people.size());
+    bounds_.resize(people.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, people.size(), 256), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) people_[i] = ready(view, *people[i], cell);
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            people_[i] = ready(view, *people[i], cell);
+            bounds_[i] = people_[i].bounds();
+        }
     });
+}
+
+float PointPeople::reach_of(const Person& person) const {
+    return person.instance.scale * glm::length(figures_[person.character].poses->box.size());
+}
+
+Rect SplatPerson::bounds() const {
+    const auto first = [this](std::int16_t at) { return static_cast<int>(std::floor(static_cast<float>(at) * cell)); };
+    const auto end = [this](std::int16_t at) { return static_cast<int>(std::ceil(static_cast<float>(at) * cell)); };
+    return {first(x0), first(y0), end(x1), end(y1)};
 }
 
 void PointPeople::make_kind(std::uint32_t character) {

@@ -23,6 +23,8 @@ public:
     void prepare(const View& view, double splat_size, std::span<const Person* const> people);
 
     std::span<const SplatPerson> people() const { return people_; }
+    std::span<const Rect> bounds() const { return bounds_; }  // [px] that each of them may touch
+    float reach_of(const Person& person) const;               // [m] from the middle of anybody's box
     const SplatLight& light() const { return light_; }
 
 private:
@@ -42,6 +44,7 @@ private:
     glm::vec3 to_sun_;
     SplatLight light_;
     std::vector<SplatPerson> people_;
+    std::vector<Rect> bounds_;
 };
 
 }  // namespace render::native

@@ -1,103 +1,169 @@
 #include "render/native/renderer.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
+
+#include "figures/way.h"
 
 namespace render::native {
 
-Renderer::Renderer(std::span<const figures::Figure> figures, const scene::Light& light, int width, int height)
-    : points_(figures, light) {
+namespace {
+
+bool same_view(const View& a, const View& b) {
+    return a.width == b.width && a.height == b.height && a.position == b.position &&
+           a.clip_from_camera_relative == b.clip_from_camera_relative;
+}
+
+template <typename Work>
+void for_each_tile(std::size_t count, Work work) {
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, count, 1),
+        [&](const auto& range) {
+            for (std::size_t tile = range.begin(); tile < range.end(); ++tile) work(tile);
+        },
+        tbb::simple_partitioner());
+}
+
+}  // namespace
+
+Renderer::Renderer(const scene::StaticMesh& structure, const scene::Ground& ground, const scene::Light& light,
+                   std::span<const figures::Figure> figures, int width, int height)
+    : backdrop_(structure, ground, light), triangles_(figures, light), points_(figures, light) {
     resize(width, height);
 }
 
 void Renderer::resize(int width, int height) {
     width_ = width;
     height_ = height;
-    columns_ = (width + tile_side - 1) / tile_side;
-    rows_ = (height + tile_side - 1) / tile_side;
+    grid_ = TileGrid(width, height);
     behind_.width = width;
     behind_.height = height;
     behind_.color = Plane<std::uint32_t>(width, height);
     behind_.depth = Plane<float>(width, height);
+    behind_.farthest = Plane<float>(blocks_across(width), blocks_across(height));
     picture_ = Plane<std::uint32_t>(width, height);
+    has_backdrop_ = has_picture_ = false;
 }
 
-Tile Renderer::tile_at(std::size_t index) const {
-    const int x0 = static_cast<int>(index) % columns_ * tile_side, y0 = static_cast<int>(index) / columns_ * tile_side;
-    return {x0, y0, std::min(x0 + tile_side, width_), std::min(y0 + tile_side, height_)};
+Surroundings Renderer::begin(const View& view) {
+    Surroundings out;
+    if (!has_backdrop_ || !same_view(view, view_)) {
+        view_ = view;
+        backdrop_.aim(view);
+        for_each_tile(grid_.count(), [&](std::size_t tile) { backdrop_.paint(grid_.tile(tile), behind_); });
+        out.work[sfsm::WorkKind::structure_triangle] = backdrop_.triangles();
+        out.work[sfsm::WorkKind::pixel] = std::int64_t{width_} * height_;
+        has_backdrop_ = true;
+        has_picture_ = false;
+    }
+    static_assert(Occlusion::block_side == block_side);
+    occlusion_ = {behind_.farthest.row(0), behind_.farthest.stride(), blocks_across(width_), blocks_across(height_)};
+    out.occlusion = &occlusion_;
+    return out;
+}
+
+bool Renderer::is_drawn_already(const Frame& frame) const {
+    static_assert(sizeof(Person) == sizeof(Instance) + 32);  // nothing in it but what is compared
+    return has_picture_ && frame.splat_size == drawn_splat_size_ && frame.people.size() == drawn_.size() &&
+           std::memcmp(frame.people.data(), drawn_.data(), drawn_.size() * sizeof(Person)) == 0;
 }
 
 void Renderer::draw(const Frame& frame) {
-    sort_by_depth(frame);
+    if (is_drawn_already(frame)) return;
+    part_people(frame);
+    triangles_.prepare(frame.view, near_people_);
     points_.prepare(frame.view, frame.splat_size, point_people_);
-    bin_people();
-    tbb::parallel_for(std::size_t{0}, tile_count(), [&](std::size_t tile) { draw_tile(tile); });
+    fill_lists();
+    for_each_tile(grid_.count(), [&](std::size_t tile) { draw_tile(tile); });
+    drawn_ = frame.people;
+    drawn_splat_size_ = frame.splat_size;
+    has_picture_ = true;
 }
 
-// Stable, by the bits of the depth: a positive float's rise with it.
-void Renderer::sort_by_depth(const Frame& frame) {
+// By rising depth, stable: a counting sort in two passes over the bits of the depth, which rise with it.
+void Renderer::part_people(const Frame& frame) {
     constexpr int digit_bits = 11;
     constexpr std::uint32_t digits = 1u << digit_bits;
+    near_people_.clear();
     unsorted_.clear();
-    for (const Person& person : frame.people) unsorted_.push_back(&person);
+    for (const Person& person : frame.people) {
+        const bool is_mesh = figures::natively().representations[person.representation].is_mesh;
+        (is_mesh ? near_people_ : unsorted_).push_back(&person);
+    }
     point_people_.resize(unsorted_.size());
     for (const int shift : {31 - 2 * digit_bits, 31 - digit_bits}) {
-        keys_.assign(digits + 1, 0);
+        counts_.assign(digits + 1, 0);
         const auto digit = [&](const Person* person) {
             return std::bit_cast<std::uint32_t>(person->depth) >> shift & (digits - 1);
         };
-        for (const Person* person : unsorted_) ++keys_[digit(person) + 1];
-        for (std::uint32_t i = 0; i < digits; ++i) keys_[i + 1] += keys_[i];
-        for (const Person* person : unsorted_) point_people_[keys_[digit(person)]++] = person;
+        for (const Person* person : unsorted_) ++counts_[digit(person) + 1];
+        for (std::uint32_t i = 0; i < digits; ++i) counts_[i + 1] += counts_[i];
+        for (const Person* person : unsorted_) point_people_[counts_[digit(person)]++] = person;
         unsorted_.swap(point_people_);
     }
     unsorted_.swap(point_people_);
 }
 
-void Renderer::bin_people() {
-    const auto people = points_.people();
-    const auto for_each_tile = [&](const SplatPerson& person, auto visit) {
-        const auto at = [&](std::int16_t cell, int most) {
-            return std::clamp(static_cast<int>(static_cast<float>(cell) * person.cell) / tile_side, 0, most - 1);
-        };
-        if (person.x1 <= 0 || person.y1 <= 0) return;
-        if (static_cast<float>(person.x0) * person.cell >= static_cast<float>(width_)) return;
-        if (static_cast<float>(person.y0) * person.cell >= static_cast<float>(height_)) return;
-        for (int y = at(person.y0, rows_); y <= at(person.y1, rows_); ++y)
-            for (int x = at(person.x0, columns_); x <= at(person.x1, columns_); ++x) visit(y * columns_ + x);
-    };
-    tile_begin_.assign(tile_count() + 1, 0);
-    for (const SplatPerson& person : people) for_each_tile(person, [&](int tile) { ++tile_begin_[tile + 1]; });
-    for (std::size_t i = 0; i < tile_count(); ++i) tile_begin_[i + 1] += tile_begin_[i];
-    tile_people_.resize(tile_begin_.back());
-    for (std::uint32_t i = 0; i < people.size(); ++i)
-        for_each_tile(people[i], [&](int tile) { tile_people_[tile_begin_[tile]++] = i; });
-    for (std::size_t i = tile_count(); i > 0; --i) tile_begin_[i] = tile_begin_[i - 1];
-    tile_begin_[0] = 0;
+void Renderer::fill_lists() {
+    near_lists_.fill(grid_, triangles_.bounds());
+    point_lists_.fill(grid_, points_.bounds());
 }
 
 void Renderer::draw_tile(std::size_t index) {
-    const Tile tile = tile_at(index);
-    Bench& bench = benches_.local();
-    bench.cover.begin(tile);
-    for (std::uint32_t i = tile_begin_[index]; i < tile_begin_[index + 1]; ++i) {
-        const SplatPerson& person = points_.people()[tile_people_[i]];
-        Patch patch;
-        patch.x0 = std::max<int>(person.x0, tile.x0 - 1);
-        patch.y0 = std::max<int>(person.y0, tile.y0 - 1);
-        patch.width = std::min<int>(person.x1, tile.x1 + 1) - patch.x0;
-        patch.height = std::min<int>(person.y1, tile.y1 + 1) - patch.y0;
-        if (patch.width < 2 || patch.height < 2) continue;
-        patch.stride = (patch.width + group_cells - 1) / group_cells * group_cells;
-        patch.cells = bench.cells.data();
-        patch.used = bench.used.data();
-        splat(person, points_.light(), patch);
-        bench.cover.lay(person, patch, behind_);
+    const Tile tile = grid_.tile(index);
+    Easel& easel = easels_.local();
+    easel.cover.begin(tile, behind_);
+    std::span<const std::uint32_t> others = point_lists_.of(index);
+    if (const float far_end = draw_near(index, easel); far_end > 0) {
+        // Who may be in front of somebody near comes before them and, for what is behind, once more after them.
+        std::size_t mixed = 0;
+        while (mixed < others.size() && points_.people()[others[mixed]].nearest() < far_end) ++mixed;
+        for (const std::uint32_t i : others.first(mixed))
+            draw_point_person(points_.people()[i], easel, Layers::before_near);
+        easel.cover.lay(easel.near);
+        for (const std::uint32_t i : others.first(mixed))
+            draw_point_person(points_.people()[i], easel, Layers::behind_near);
+        others = others.subspan(mixed);
     }
-    bench.cover.resolve(behind_, picture_);
+    for (const std::uint32_t i : others) draw_point_person(points_.people()[i], easel, Layers::all);
+    easel.cover.resolve(picture_);
+}
+
+// Returns how far back [m] they reach; 0: there is nobody.
+float Renderer::draw_near(std::size_t tile, Easel& easel) const {
+    const std::span<const std::uint32_t> people = near_lists_.of(tile);
+    if (people.empty()) return 0;
+    easel.near.begin(grid_.tile(tile), behind_);
+    float far_end = 0;
+    for (const std::uint32_t i : people) {
+        triangles_.draw(i, easel.near);
+        far_end = std::max(far_end, near_people_[i]->depth + points_.reach_of(*near_people_[i]));
+    }
+    easel.near.resolve();
+    return far_end;
+}
+
+void Renderer::draw_point_person(const SplatPerson& person, Easel& easel, Layers layers) const {
+    const Tile& tile = easel.cover.tile();
+    const auto cell_at = [&](int pixel) { return static_cast<int>(std::floor(static_cast<float>(pixel) / person.cell)); };
+    Patch patch;
+    patch.x0 = std::max<int>(person.x0, cell_at(tile.x0) - 1);
+    patch.y0 = std::max<int>(person.y0, cell_at(tile.y0) - 1);
+    patch.width = std::min<int>(person.x1, cell_at(tile.x1 - 1) + 2) - patch.x0;
+    patch.height = std::min<int>(person.y1, cell_at(tile.y1 - 1) + 2) - patch.y0;
+    if (patch.width < 2 || patch.height < 2) return;
+    if (easel.cover.is_full(person.bounds())) return;
+    patch.stride = (patch.width + group_cells - 1) / group_cells * group_cells;
+    patch.cells = easel.cells.data();
+    patch.used = easel.used.data();
+    splat(person, points_.light(), patch);
+    easel.cover.lay(person, patch, layers == Layers::all ? nullptr : &easel.near, layers);
 }
 
 Image Renderer::read_image() const {

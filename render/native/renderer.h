@@ -1,54 +1,84 @@
-// Frames by the processor alone. docs/native-splats.md tells how.
+// Frames by the processor alone: no device, no driver. docs/native-splats.md tells how people become pixels.
+//
+// The picture is cut into tiles that threads draw one by one. In each, people go from front to back: near ones as
+// triangles into a layer of four samples a pixel, the others as points with coverage, each behind what is there already.
+// What stays open shows the backdrop. The bits are the same on every processor and for any number of threads.
 #pragma once
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "figures/figure.h"
-#include "render/frame.h"
-#include "render/image.h"
+#include "render/native/backdrop.h"
 #include "render/native/cover.h"
+#include "render/native/near_layer.h"
 #include "render/native/picture.h"
 #include "render/native/point_people.h"
+#include "render/native/tile_lists.h"
+#include "render/native/triangles.h"
+#include "render/renderer.h"
+#include "scene/ground.h"
 #include "scene/light.h"
+#include "scene/static_mesh.h"
 
 namespace render::native {
 
-class Renderer {
+class Renderer final : public render::Renderer {
 public:
-    Renderer(std::span<const figures::Figure> figures, const scene::Light& light, int width, int height);
+    // Copies structure, ground and light; `figures`, in the order of Crowd::character, and what they point at must
+    // outlive it. width, height in [1, largest_picture].
+    Renderer(const scene::StaticMesh& structure, const scene::Ground& ground, const scene::Light& light,
+             std::span<const figures::Figure> figures, int width, int height);
 
-    void resize(int width, int height);
-    void draw(const Frame& frame);
-    Image read_image() const;
-    BackdropPicture& backdrop() { return behind_; }
+    void resize(int width, int height) override;
+    Surroundings begin(const View& view) override;
+    void draw(const Frame& frame) override;
+    Image read_image() const override;
+
+    // What was drawn last: red, green, blue in bytes 0, 1 and 2.
+    const Plane<std::uint32_t>& picture() const { return picture_; }
+    int width() const { return width_; }
+    int height() const { return height_; }
 
 private:
     // What a thread needs to draw a tile.
-    struct Bench {
+    struct Easel {
         CoverTile cover;
+        NearLayer near;
         Array<std::int16_t> cells = Array<std::int16_t>(std::size_t{8} * largest_patch_side * largest_patch_side);
         std::array<std::uint64_t, largest_patch_side> used{};  // both all 0 between two people
     };
 
-    void sort_by_depth(const Frame& frame);
-    void bin_people();
-    void draw_tile(std::size_t tile);
-    Tile tile_at(std::size_t index) const;
-    std::size_t tile_count() const { return static_cast<std::size_t>(columns_) * rows_; }
+    bool is_drawn_already(const Frame& frame) const;
+    void part_people(const Frame& frame);
+    void fill_lists();
+    void draw_tile(std::size_t index);
+    float draw_near(std::size_t tile, Easel& easel) const;
+    void draw_point_person(const SplatPerson& person, Easel& easel, Layers layers) const;
 
+    Backdrop backdrop_;
+    TrianglePeople triangles_;
     PointPeople points_;
+    int width_ = 0, height_ = 0;
+    TileGrid grid_;
     BackdropPicture behind_;
     Plane<std::uint32_t> picture_;
-    int width_ = 0, height_ = 0, columns_ = 0, rows_ = 0;
-    std::vector<const Person*> point_people_, unsorted_;
-    std::vector<std::uint32_t> keys_;
-    std::vector<std::uint32_t> tile_begin_;  // per tile, then the total: into tile_people_
-    std::vector<std::uint32_t> tile_people_;
-    tbb::enumerable_thread_specific<Bench> benches_;
+    View view_;
+    bool has_backdrop_ = false;  // of view_
+    Occlusion occlusion_;
+
+    std::vector<Person> drawn_;  // the last frame's people, and its splats
+    double drawn_splat_size_ = 0;
+    bool has_picture_ = false;  // of view_ and drawn_
+
+    std::vector<const Person*> near_people_, point_people_, unsorted_;
+    std::vector<std::uint32_t> counts_;  // of the sort
+    TileLists near_lists_, point_lists_;
+    tbb::enumerable_thread_specific<Easel> easels_;
 };
 
 }  // namespace render::native

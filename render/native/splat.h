@@ -9,6 +9,8 @@
 #include <cstdint>
 
 #include "model/slot.h"
+#include "render/native/array.h"
+#include "render/native/near_layer.h"
 
 namespace render::native {
 
@@ -48,6 +50,9 @@ struct SplatPerson {
     std::int16_t depth_code, thickness;
     std::int16_t x0, y0, x1, y1;  // [cells] what they may touch
     float cell;                   // [px] side of a cell
+
+    Rect bounds() const;                              // [px] of the picture, anywhere
+    float nearest() const { return depth - reach; }  // [m] view depth
 };
 
 // The same for everybody: 16384 = 1.

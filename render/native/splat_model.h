@@ -2,8 +2,6 @@
 // of them are seen from where; and how large the silhouette is from there.
 #pragma once
 
-#include <tbb/cache_aligned_allocator.h>
-
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -11,6 +9,7 @@
 #include <vector>
 
 #include "figures/figure.h"
+#include "render/native/array.h"
 #include "render/native/directions.h"
 
 namespace render::native {
@@ -20,9 +19,6 @@ inline constexpr int chunk_points = 32;
 inline constexpr int longest_mean_prefix = chunk_points;
 // Of a handful of points none may happen to face the eye: each stands for both sides of the body.
 inline constexpr int longest_two_sided_prefix = 8;
-
-template <typename T>
-using Array = std::vector<T, tbb::cache_aligned_allocator<T>>;
 
 class SplatModel {
 public:

@@ -31,6 +31,7 @@ public:
     std::size_t size() const { return bounds_.size(); }
     // Pixels of the picture that person `i` of `people` may touch; empty: none.
     Rect bounds(std::size_t i) const { return bounds_[i]; }
+    std::span<const Rect> bounds() const { return bounds_; }
     // Where samples are equally near, who was drawn first stays. For one layer at a time on each thread.
     void draw(std::size_t i, NearLayer& layer) const;
 

@@ -1,0 +1,14 @@
+// What is known of a view before anybody is chosen for it.
+#pragma once
+
+#include "render/occlusion.h"
+#include "sfsm/work.h"
+
+namespace render {
+
+struct Surroundings {
+    sfsm::Work work;                       // of all that is drawn whoever is: structure and pixels
+    const Occlusion* occlusion = nullptr;  // null: not known
+};
+
+}  // namespace render
