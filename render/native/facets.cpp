@@ -64,8 +64,13 @@ std::vector<float> Shares::of_first(std::size_t count) const {
     std::vector<float> shares(own_.begin(), own_.begin() + static_cast<std::ptrdiff_t>(count));
     for (std::size_t point = count; point < model_.size(); ++point) {
         std::size_t nearest = 0;
-        for (std::size_t i = 1; i < count; ++i)
-            if (distance(model_, i, point) < distance(model_, nearest, point)) nearest = i;
+        float least = distance(model_, 0, point);
+        for (std::size_t i = 1; i < count; ++i) {
+            const float d = distance(model_, i, point);
+            if (d >= least) continue;
+            least = d;
+            nearest = i;
+        }
         shares[nearest] += own_[point];
     }
     make_mean_one(shares);

@@ -80,20 +80,21 @@ void SelfOcclusion::draw_triangle(glm::vec3 a, glm::vec3 b, glm::vec3 c) {
         twice = -twice;
     }
     if (!(twice > 0.0f)) return;
-    const auto cell = [](float at) { return std::clamp(static_cast<int>(std::ceil(at - 0.5f)), 0, side); };
+    // The first cell whose middle is not below; all is within the square.
+    const auto cell = [](float at) { return static_cast<int>(at + 0.5f); };
     const int x0 = cell(std::min({a.x, b.x, c.x})), x1 = cell(std::max({a.x, b.x, c.x}));
     const int y0 = cell(std::min({a.y, b.y, c.y})), y1 = cell(std::max({a.y, b.y, c.y}));
-    const float share = 1.0f / twice;
-    for (int y = y0; y < y1; ++y) {
-        const float py = static_cast<float>(y) + 0.5f;
-        for (int x = x0; x < x1; ++x) {
-            const float px = static_cast<float>(x) + 0.5f;
-            const float u = (px - a.x) * (c.y - a.y) - (py - a.y) * (c.x - a.x);
-            const float v = (b.x - a.x) * (py - a.y) - (b.y - a.y) * (px - a.x);
-            if (u < 0.0f || v < 0.0f || u + v > twice) continue;
-            const float depth = a.z + share * (u * (b.z - a.z) + v * (c.z - a.z));
+    if (x0 >= x1 || y0 >= y1) return;
+    const glm::vec2 across(c.y - a.y, a.y - b.y), down(a.x - c.x, b.x - a.x);  // of u and v, a cell on
+    const glm::vec2 share = glm::vec2(b.z - a.z, c.z - a.z) / twice;
+    const glm::vec2 from(static_cast<float>(x0) + 0.5f - a.x, static_cast<float>(y0) + 0.5f - a.y);
+    glm::vec2 row = from.x * across + from.y * down;
+    for (int y = y0; y < y1; ++y, row += down) {
+        glm::vec2 at = row;
+        for (int x = x0; x < x1; ++x, at += across) {
+            if (at.x < 0.0f || at.y < 0.0f || at.x + at.y > twice) continue;
             float& nearest = depth_[y * side + x];
-            nearest = std::max(nearest, depth);
+            nearest = std::max(nearest, a.z + glm::dot(at, share));
         }
     }
 }

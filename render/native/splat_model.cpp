@@ -170,6 +170,13 @@ void SplatModel::look_around(const figures::Figure& figure) {
         SelfOcclusion body(figure, static_cast<int>(key_poses_[key]), own);
         for (int node = 0; node < direction_nodes; ++node) {
             const std::size_t look = key * direction_nodes + node;
+            const bool is_pole = node / ring_nodes % (rings - 1) == 0;
+            if (is_pole && node % ring_nodes > 0) {  // all of its nodes are one
+                std::copy_n(&visible_[(look - 1) * chunks_], chunks_, &visible_[look * chunks_]);
+                silhouettes_[look] = silhouettes_[look - 1];
+                summed_[look] = summed_[look - 1];
+                continue;
+            }
             const SelfOcclusion::Seen seen =
                 body.look_from(direction_of(node), {&visible_[look * chunks_], static_cast<std::size_t>(chunks_)});
             silhouettes_[look] = seen.silhouette;
