@@ -41,10 +41,17 @@ constexpr Offsets offsets = [] {
     return made;
 }();
 
-// What is linear between three corners: at the first, and how much more at the second and third. With the depth last.
+// A colour that is linear in edges 1 and 2, and a half for `rounded`. What is last means nothing.
 struct alignas(16) PlainShading {
-    float at[4], to_second[4], to_third[4];
+    float at[4], second[4], third[4];
 };
+
+// The first lane's the lowest.
+std::uint32_t bits_of(hn::Mask<Ints> mask) {
+    std::uint8_t bytes[8] = {};  // as many as may be written
+    hn::StoreMaskBits(Ints(), mask, bytes);
+    return bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8;
+}
 
 VFloat between(float at, float to_second, float to_third, VFloat second, VFloat third) {
     const Floats f;
@@ -58,26 +65,40 @@ VWords rounded(VFloat color_and_half) {
     return hn::BitCast(Words(), hn::ConvertTo(Ints(), hn::Min(color_and_half, most)));
 }
 
-void store(VFloat red, VFloat green, VFloat blue, FloatMask mask, Block& block, int lane) {
+// Whole vectors, not masked stores: what is drawn next is often in the same block, and loads can't be served by a
+// masked store that is still on its way.
+template <typename D, typename V, typename T>
+void blend(V value, hn::Mask<D> mask, D d, T* to) {
+    hn::Store(hn::IfThenElse(mask, value, hn::Load(d, to)), d, to);
+}
+
+void store(VFloat red, VFloat green, VFloat blue, FloatMask mask, const Block& block, int lane) {
     const Words w;
     const auto wide_mask = hn::RebindMask(w, mask);
-    hn::BlendedStore(hn::Or(rounded(red), hn::ShiftLeft<16>(rounded(green))), wide_mask, w, block.red_green + lane);
-    hn::BlendedStore(rounded(blue), wide_mask, w, block.blue + lane);
+    blend(hn::Or(rounded(red), hn::ShiftLeft<16>(rounded(green))), wide_mask, w, block.red_green + lane);
+    blend(rounded(blue), wide_mask, w, block.blue + lane);
 }
 
-// Those of `inside` that are nearer than what is there, and their depth.
-FloatMask nearer(VFloat depth, FloatMask inside, Block& block, int lane) {
+// Keeps of `inside` what is nearer than what is there, and its depth. False: nothing is.
+bool nearer(VFloat depth, FloatMask& inside, const Block& block, int lane) {
     const Floats f;
-    const auto mask = hn::And(inside, hn::Gt(depth, hn::Load(f, block.depth + lane)));
-    hn::BlendedStore(depth, mask, f, block.depth + lane);
-    return mask;
+    const auto there = hn::Load(f, block.depth + lane);
+    inside = hn::And(inside, hn::Gt(depth, there));
+    if (hn::AllFalse(f, inside)) return false;
+    hn::Store(hn::IfThenElse(inside, depth, there), f, block.depth + lane);
+    return true;
 }
 
-// `second`, `third`: how much of those corners each sample is.
-void shade(const PlainShading& s, VFloat second, VFloat third, FloatMask inside, Block& block, int lane) {
-    const auto value = [&](int i) { return between(s.at[i], s.to_second[i], s.to_third[i], second, third); };
-    const FloatMask mask = nearer(value(3), inside, block, lane);
-    if (hn::AllFalse(Floats(), mask)) return;
+void update_farthest(const Block& block) {
+    const Floats f;
+    auto least = hn::Load(f, block.depth);
+    for (int part = 1; part < parts; ++part) least = hn::Min(least, hn::Load(f, block.depth + part * lanes));
+    *block.farthest = hn::GetLane(hn::MinOfLanes(f, least));
+}
+
+// `edge1`, `edge2`: at the samples.
+void shade(const PlainShading& s, VFloat edge1, VFloat edge2, FloatMask mask, const Block& block, int lane) {
+    const auto value = [&](int i) { return between(s.at[i], s.second[i], s.third[i], edge1, edge2); };
     store(value(0), value(1), value(2), mask, block, lane);
 }
 
@@ -134,14 +155,13 @@ Color texel(const Texels& texels, VFloat u, VFloat v) {
             channel([&](VInt t) { return hn::And(hn::ShiftRight<16>(t), low); })};
 }
 
-void shade(const RichShading& s, VFloat second, VFloat third, FloatMask inside, Block& block, int lane) {
+// `second`, `third`: how much of those corners each sample is.
+void shade(const RichShading& s, VFloat second, VFloat third, FloatMask mask, const Block& block, int lane) {
     const Floats f;
     // Outside of the triangle nothing is promised of the numbers below.
-    second = hn::IfThenElseZero(inside, second);
-    third = hn::IfThenElseZero(inside, third);
+    second = hn::IfThenElseZero(mask, second);
+    third = hn::IfThenElseZero(mask, third);
     const auto depth = between(s.at.depth, s.to_second.depth, s.to_third.depth, second, third);
-    const FloatMask mask = nearer(depth, inside, block, lane);
-    if (hn::AllFalse(f, mask)) return;
     second = hn::Div(hn::Mul(second, hn::Set(f, s.depth_second)), depth);
     third = hn::Div(hn::Mul(third, hn::Set(f, s.depth_third)), depth);
     const auto color = [&](int c) {
@@ -158,21 +178,6 @@ void shade(const RichShading& s, VFloat second, VFloat third, FloatMask inside, 
     }
     const auto half = hn::Set(f, 0.5f);
     store(hn::Add(shown.red, half), hn::Add(shown.green, half), hn::Add(shown.blue, half), mask, block, lane);
-}
-
-PlainShading plain_shading(const LitVertex& a, const LitVertex& b, const LitVertex& c, const Tint& tint) {
-    const Four f;
-    static_assert(sizeof(Tint) == sizeof(LitVertex));
-    const auto color = hn::Load(f, &tint.red);
-    const auto at = hn::Mul(hn::Load(f, a.light), color);
-    const auto to_second = hn::Sub(hn::Mul(hn::Load(f, b.light), color), at);
-    const auto to_third = hn::Sub(hn::Mul(hn::Load(f, c.light), color), at);
-    alignas(16) constexpr float half[] = {0.5f, 0.5f, 0.5f, 0.0f};  // for `rounded`
-    PlainShading shading;
-    hn::Store(hn::Add(at, hn::Load(f, half)), f, shading.at);
-    hn::Store(to_second, f, shading.to_second);
-    hn::Store(to_third, f, shading.to_third);
-    return shading;
 }
 
 Corner difference(const Corner& a, const Corner& b) {
@@ -256,15 +261,17 @@ void block_range(VInt least, VInt most, int first, int end, VInt& from, VInt& to
 static_assert(grid_per_sample == 16 && sample_block_side == 4);
 
 // Those lanes of `out` that have any block; a bit each.
-std::uint32_t set_up(const FacingTriangles& facing, std::uint32_t first, const Blocks& tile, EdgeGroup& out) {
+std::uint32_t set_up(const FacingTriangle* facing, const Blocks& tile, EdgeGroup& out) {
     const Floats f;
     const Ints i;
     const Words w;
     std::uint32_t alive = 0;
     for (int lane = 0; lane < group; lane += lanes) {
         Points p;
+        VWords corners[3], faces;
+        hn::LoadInterleaved4(w, facing[lane].corners, corners[0], corners[1], corners[2], faces);
         for (int k = 0; k < 3; ++k) {
-            const auto packed = hn::BitCast(i, hn::LoadU(w, facing.corners[k] + first + lane));
+            const auto packed = hn::BitCast(i, corners[k]);
             p.x[k] = hn::ShiftRight<16>(hn::ShiftLeft<16>(packed));
             p.y[k] = hn::ShiftRight<16>(packed);
         }
@@ -274,9 +281,7 @@ std::uint32_t set_up(const FacingTriangles& facing, std::uint32_t first, const B
         block_range(hn::Min(p.y[0], hn::Min(p.y[1], p.y[2])), hn::Max(p.y[0], hn::Max(p.y[1], p.y[2])), tile.first_row,
                     tile.end_row, row, end_row);
         const auto some = hn::And(hn::Gt(end_column, column), hn::Gt(end_row, row));
-        std::uint8_t bits[8] = {};
-        hn::StoreMaskBits(i, some, bits);
-        const std::uint32_t mask = bits[0] | static_cast<std::uint32_t>(bits[1]) << 8;
+        const std::uint32_t mask = bits_of(some);
         alive |= mask << lane;
         if (mask == 0) continue;
         hn::Store(column, i, out.first_column + lane);
@@ -312,108 +317,264 @@ std::uint32_t set_up(const FacingTriangles& facing, std::uint32_t first, const B
     return alive;
 }
 
-// Triangle `t` of a group; calls `shading` once if any sample is hit.
-template <typename Shading>
-void fill_triangle(const EdgeGroup& edges, int t, int origin_column, int origin_row, NearLayer& layer,
-                   Shading shading) {
-    const Floats f;
-    const Ints i;
-    VInt row_edge[3][parts], right[3], below[3];
-    for (int k = 0; k < 3; ++k) {
-        const auto along = hn::Set(i, edges.along[k][t]), down = hn::Set(i, edges.down[k][t]);
-        const auto start = hn::Set(i, edges.start[k][t]);
-        right[k] = hn::ShiftLeft<2>(along);
-        below[k] = hn::ShiftLeft<2>(down);
-        for (int part = 0; part < parts; ++part) {
-            const auto x = hn::Load(i, offsets.x + part * lanes), y = hn::Load(i, offsets.y + part * lanes);
-            row_edge[k][part] = hn::Add(start, hn::Add(hn::Mul(along, x), hn::Mul(down, y)));
-        }
-    }
-    const auto scale = hn::Set(f, edges.scale[t]);
-    const auto rest_second = hn::Set(f, edges.rest[0][t]), rest_third = hn::Set(f, edges.rest[1][t]);
-    decltype(shading()) shades;
-    bool ready = false;
-    for (int row = edges.first_row[t]; row < edges.end_row[t]; ++row) {
-        VInt edge[3][parts];
-        for (int k = 0; k < 3; ++k)
-            for (int part = 0; part < parts; ++part) {
-                edge[k][part] = row_edge[k][part];
-                row_edge[k][part] = hn::Add(row_edge[k][part], below[k]);
-            }
-        for (int column = edges.first_column[t]; column < edges.end_column[t]; ++column) {
-            for (int part = 0; part < parts; ++part) {
-                const auto outside = hn::Or(hn::Or(edge[0][part], edge[1][part]), edge[2][part]);
-                const auto inside = hn::RebindMask(f, hn::Gt(outside, hn::Set(i, -1)));
-                if (!hn::AllFalse(f, inside)) {
-                    if (!ready) {
-                        shades = shading();
-                        ready = true;
-                    }
-                    const auto second = hn::Add(hn::Mul(hn::ConvertTo(f, edge[1][part]), scale), rest_second);
-                    const auto third = hn::Add(hn::Mul(hn::ConvertTo(f, edge[2][part]), scale), rest_third);
-                    shade(shades, second, third, inside, layer.block(origin_column + column, origin_row + row),
-                          part * lanes);
-                }
-                for (int k = 0; k < 3; ++k) edge[k][part] = hn::Add(edge[k][part], right[k]);
-            }
-        }
-    }
+// The corners of a triangle on the screen.
+struct FacingCorners {
+    const LitVertex* vertices[3];
+    const Tint* tints[3];
+    std::uint32_t numbers[3];  // of the vertices
+    const Face* face;
+};
+
+FacingCorners corners_of(const PersonMesh& mesh, std::uint32_t number, const LitVertex* vertices, const Tint* tints) {
+    const Face& face = mesh.faces[number & ~from_behind];
+    const int second = (number & from_behind) == 0 ? 1 : 2, third = 3 - second;
+    FacingCorners out{{}, {}, {face.corners[0], face.corners[second], face.corners[third]}, &face};
+    for (int k = 0; k < 3; ++k) out.vertices[k] = vertices + out.numbers[k];
+    out.tints[0] = tints + face.paints[0];
+    out.tints[1] = tints + face.paints[second];
+    out.tints[2] = tints + face.paints[third];
+    return out;
 }
 
-constexpr float flat_enough = 0.99f;  // of depths, nearest by farthest: their perspective doesn't show
-
-bool is_flat(float a, float b, float c) {
-    return std::min({a, b, c}) >= flat_enough * std::max({a, b, c});
+float nearest(const FacingCorners& corners) {
+    return std::max({corners.vertices[0]->depth, corners.vertices[1]->depth, corners.vertices[2]->depth});
 }
 
-RichShading rich_shading(const PersonMesh& mesh, const Face& face, const std::uint32_t (&corners)[3],
-                         const std::uint32_t (&paints)[3], const LitVertex* vertices, const Tint* tints,
-                         const Slopes& slopes) {
+bool is_flat(const FacingCorners& corners) {
+    constexpr float flat_enough = 0.99f;  // of depths, nearest by farthest: their perspective doesn't show
+    const float farthest =
+        std::min({corners.vertices[0]->depth, corners.vertices[1]->depth, corners.vertices[2]->depth});
+    return farthest >= flat_enough * nearest(corners);
+}
+
+// What a triangle's edges say of a sample.
+struct Interpolation {
+    float depth, depth_second, depth_third;  // depth + edge 1 * depth_second + edge 2 * depth_third
+    float scale, rest_second, rest_third;    // EdgeGroup's
+};
+
+Interpolation interpolation(const EdgeGroup& edges, int t, const FacingCorners& corners) {
+    const float depth = corners.vertices[0]->depth;
+    const float second = corners.vertices[1]->depth - depth, third = corners.vertices[2]->depth - depth;
+    const float scale = edges.scale[t], rest_second = edges.rest[0][t], rest_third = edges.rest[1][t];
+    return {depth + second * rest_second + third * rest_third,
+            second * scale,
+            third * scale,
+            scale,
+            rest_second,
+            rest_third};
+}
+
+// By edges 1 and 2. False where light and albedo both change so much that their product isn't linear enough: a sample
+// could be off by one of 255 steps as stored, that is of a square root.
+bool plain_shading(const FacingCorners& corners, const Interpolation& by, PlainShading& shading) {
+    const Four f;
+    static_assert(sizeof(Tint) == sizeof(LitVertex));
+    const auto albedo = [&](int k) { return hn::Load(f, &corners.tints[k]->red); };
+    const auto light = [&](int k) { return hn::Load(f, corners.vertices[k]->light); };
+    const auto at = hn::Mul(light(0), albedo(0));
+    if (!corners.face->plain) {
+        const auto most = [&](auto of) { return hn::Max(of(0), hn::Max(of(1), of(2))); };
+        const auto least = [&](auto of) { return hn::Min(of(0), hn::Min(of(1), of(2))); };
+        const auto least_light = least(light), least_albedo = least(albedo);
+        // A product is off by a quarter of this at most.
+        const auto bend = hn::Mul(hn::Sub(most(light), least_light), hn::Sub(most(albedo), least_albedo));
+        const auto darkest = hn::Mul(least_light, least_albedo);
+        constexpr float step = 8.0f / 255;
+        const auto limit = hn::Mul(darkest, hn::Set(f, step * step * full));
+        const auto colors = hn::FirstN(f, 3);
+        if (!hn::AllFalse(f, hn::And(colors, hn::Gt(hn::Mul(bend, bend), limit)))) return false;
+    }
+    const auto second = hn::Sub(hn::Mul(light(1), albedo(1)), at), third = hn::Sub(hn::Mul(light(2), albedo(2)), at);
+    const auto rest = hn::Add(hn::Mul(second, hn::Set(f, by.rest_second)), hn::Mul(third, hn::Set(f, by.rest_third)));
+    const auto scale = hn::Set(f, by.scale);
+    hn::Store(hn::Add(hn::Add(at, rest), hn::Set(f, 0.5f)), f, shading.at);
+    hn::Store(hn::Mul(second, scale), f, shading.second);
+    hn::Store(hn::Mul(third, scale), f, shading.third);
+    return true;
+}
+
+RichShading rich_shading(const PersonMesh& mesh, const FacingCorners& corners, const Slopes& slopes) {
     Corner all[3];
     for (int k = 0; k < 3; ++k) {
-        const LitVertex& vertex = vertices[corners[k]];
-        const Tint& tint = tints[paints[k]];
-        const glm::vec2 uv = mesh.uvs.empty() ? glm::vec2(0) : mesh.uvs[corners[k]];
+        const LitVertex& vertex = *corners.vertices[k];
+        const Tint& tint = *corners.tints[k];
+        const glm::vec2 uv = mesh.uvs.empty() ? glm::vec2(0) : mesh.uvs[corners.numbers[k]];
         all[k] = {{vertex.light[0], vertex.light[1], vertex.light[2]},
                   vertex.depth,
                   {tint.red, tint.green, tint.blue},
                   uv.x,
                   uv.y};
     }
-    return rich_shading(mesh.textures, all, face.layer, slopes);
+    return rich_shading(mesh.textures, all, corners.face->layer, slopes);
 }
 
-void fill_person(const PersonMesh& mesh, const FacingTriangles& facing, int origin_x, int origin_y,
+// How a triangle is coloured; found out when the first of its samples is seen.
+struct Shading {
+    enum class Kind { unknown, plain, rich } kind = Kind::unknown;
+    PlainShading plain;
+    RichShading rich;
+};
+
+void find_shading(const PersonMesh& mesh, const FacingCorners& corners, const EdgeGroup& edges, int t,
+                  const Interpolation& by, Shading& shading) {
+    if (corners.face->layer == untextured && is_flat(corners) && plain_shading(corners, by, shading.plain)) {
+        shading.kind = Shading::Kind::plain;
+        return;
+    }
+    const auto slope = [&](const std::int32_t(&of)[group]) { return static_cast<float>(of[t]) * edges.scale[t]; };
+    shading.rich = rich_shading(
+        mesh, corners, {slope(edges.along[1]), slope(edges.down[1]), slope(edges.along[2]), slope(edges.down[2])});
+    shading.kind = Shading::Kind::rich;
+}
+
+// Blocks are looked at sixteen at a time, in a square that has them where a block has its samples.
+constexpr int square_side = sample_block_side;
+
+// Which blocks of a square lie in its first n columns, and rows; a bit each.
+struct Within {
+    std::uint32_t columns[square_side + 1], rows[square_side + 1];
+};
+constexpr Within within = [] {
+    Within made{};
+    for (int n = 0; n <= square_side; ++n) {
+        for (int i = 0; i < block_samples; ++i) {
+            made.columns[n] |= std::uint32_t{sample_x(i) < n} << i;
+            made.rows[n] |= std::uint32_t{sample_y(i) < n} << i;
+        }
+    }
+    return made;
+}();
+
+struct TriangleEdges {
+    VInt in_block[3][parts];  // at its samples, from its first
+    std::int32_t start[3];    // at the first sample of the first block
+    std::int32_t most[3];     // that an edge gains within a block
+};
+
+TriangleEdges triangle_edges(const EdgeGroup& edges, int t) {
+    const Ints i;
+    TriangleEdges out;
+    for (int k = 0; k < 3; ++k) {
+        const std::int32_t along = edges.along[k][t], down = edges.down[k][t];
+        for (int part = 0; part < parts; ++part) {
+            const auto x = hn::Load(i, offsets.x + part * lanes), y = hn::Load(i, offsets.y + part * lanes);
+            out.in_block[k][part] = hn::Add(hn::Mul(hn::Set(i, along), x), hn::Mul(hn::Set(i, down), y));
+        }
+        out.start[k] = edges.start[k][t];
+        out.most[k] = (sample_block_side - 1) * (std::max(along, 0) + std::max(down, 0));
+    }
+    return out;
+}
+
+// Where the edges stand at the first samples of a square's blocks; returns the blocks that the triangle may touch, a
+// bit each. `start`: at the square's first sample.
+std::uint32_t square_edges(const TriangleEdges& edges, const std::int32_t (&start)[3],
+                           std::int32_t (&at)[3][block_samples]) {
+    const Ints i;
+    std::uint32_t touched = 0;
+    for (int part = 0; part < parts; ++part) {
+        auto outside = hn::Zero(i);
+        for (int k = 0; k < 3; ++k) {
+            const auto first = hn::Add(hn::Set(i, start[k]), hn::ShiftLeft<2>(edges.in_block[k][part]));
+            hn::Store(first, i, at[k] + part * lanes);
+            outside = hn::Or(outside, hn::Add(first, hn::Set(i, edges.most[k])));
+        }
+        touched |= bits_of(hn::Gt(outside, hn::Set(i, -1))) << (part * lanes);
+    }
+    return touched;
+}
+
+// `at`: its edges at the block's first sample. `find` fills `shading` in.
+template <typename Find>
+void fill_block(const TriangleEdges& edges, const std::int32_t (&at)[3], const Interpolation& by, const Block& block,
+                Shading& shading, Find find) {
+    const Floats f;
+    const Ints i;
+    bool changed = false;
+    for (int part = 0; part < parts; ++part) {
+        const auto edge = [&](int k) { return hn::Add(edges.in_block[k][part], hn::Set(i, at[k])); };
+        const auto edge1 = edge(1), edge2 = edge(2);
+        FloatMask mask = hn::RebindMask(f, hn::Gt(hn::Or(hn::Or(edge(0), edge1), edge2), hn::Set(i, -1)));
+        const auto exact1 = hn::ConvertTo(f, edge1), exact2 = hn::ConvertTo(f, edge2);
+        const auto depth = between(by.depth, by.depth_second, by.depth_third, exact1, exact2);
+        if (!nearer(depth, mask, block, part * lanes)) continue;
+        changed = true;
+        if (shading.kind == Shading::Kind::unknown) find();
+        if (shading.kind == Shading::Kind::plain) {
+            shade(shading.plain, exact1, exact2, mask, block, part * lanes);
+            continue;
+        }
+        const auto share = [&](VFloat from, float rest) {
+            return hn::Add(hn::Mul(from, hn::Set(f, by.scale)), hn::Set(f, rest));
+        };
+        shade(shading.rich, share(exact1, by.rest_second), share(exact2, by.rest_third), mask, block, part * lanes);
+    }
+    if (changed) update_farthest(block);
+}
+
+// Whether nothing in these blocks of the layer is farther than `nearest`.
+bool all_hidden(const NearLayer& layer, const Blocks& blocks, float nearest) {
+    for (int row = blocks.first_row; row < blocks.end_row; ++row)
+        for (int column = blocks.first_column; column < blocks.end_column; ++column)
+            if (nearest > layer.farthest(column, row)) return false;
+    return true;
+}
+
+// Triangle `t` of a group, in these blocks of the layer. `nearest`: that any of its samples may be.
+void fill_triangle(const PersonMesh& mesh, const EdgeGroup& group_edges, int t, const FacingCorners& corners,
+                   float nearest, const Blocks& blocks, NearLayer& layer) {
+    const Interpolation by = interpolation(group_edges, t, corners);
+    const TriangleEdges edges = triangle_edges(group_edges, t);
+    const int columns = blocks.end_column - blocks.first_column, rows = blocks.end_row - blocks.first_row;
+    Shading shading;
+    alignas(64) std::int32_t at[3][block_samples];
+    const auto fill_square = [&](int column, int row, const std::int32_t(&start)[3]) {
+        std::uint32_t touched = square_edges(edges, start, at) &
+                                within.columns[std::min(columns - column, square_side)] &
+                                within.rows[std::min(rows - row, square_side)];
+        for (; touched != 0; touched &= touched - 1) {
+            const int i = std::countr_zero(touched);
+            const int x = blocks.first_column + column + sample_x(i), y = blocks.first_row + row + sample_y(i);
+            if (!(nearest > layer.farthest(x, y))) continue;
+            fill_block(edges, {at[0][i], at[1][i], at[2][i]}, by, layer.block(x, y), shading,
+                       [&] { find_shading(mesh, corners, group_edges, t, by, shading); });
+        }
+    };
+    if (columns <= square_side && rows <= square_side) {
+        fill_square(0, 0, edges.start);
+        return;
+    }
+    for (int row = 0; row < rows; row += square_side) {
+        for (int column = 0; column < columns; column += square_side) {
+            std::int32_t start[3];
+            for (int k = 0; k < 3; ++k)
+                start[k] =
+                    edges.start[k] + sample_block_side * (column * group_edges.along[k][t] + row * group_edges.down[k][t]);
+            fill_square(column, row, start);
+        }
+    }
+}
+
+void fill_person(const PersonMesh& mesh, std::span<const FacingTriangle> facing, int origin_x, int origin_y,
                  const LitVertex* vertices, const Tint* tints, NearLayer& layer) {
-    const int origin_column = origin_x / sample_block_side, origin_row = origin_y / sample_block_side;
-    const Blocks tile{layer.first_column() - origin_column, layer.end_column() - origin_column,
-                      layer.first_row() - origin_row, layer.end_row() - origin_row};
+    const int origin_column = origin_x / sample_block_side - layer.blocks().x0;
+    const int origin_row = origin_y / sample_block_side - layer.blocks().y0;
+    const Blocks tile{-origin_column, layer.blocks().x1 - layer.blocks().x0 - origin_column, -origin_row,
+                      layer.blocks().y1 - layer.blocks().y0 - origin_row};
     EdgeGroup edges;
-    for (std::uint32_t first = 0; first < facing.count; first += group) {
-        std::uint32_t alive = set_up(facing, first, tile, edges);
-        if (facing.count - first < group) alive &= (1u << (facing.count - first)) - 1;
+    for (std::size_t first = 0; first < facing.size(); first += group) {
+        std::uint32_t alive = set_up(facing.data() + first, tile, edges);
+        if (facing.size() - first < group) alive &= (1u << (facing.size() - first)) - 1;
         for (; alive != 0; alive &= alive - 1) {
             const int t = std::countr_zero(alive);
-            const std::uint32_t number = facing.face[first + t];
-            const Face& face = mesh.faces[number & ~from_behind];
-            const bool turned = (number & from_behind) != 0;
-            const std::uint32_t corners[3] = {face.corners[0], face.corners[turned ? 2 : 1],
-                                              face.corners[turned ? 1 : 2]};
-            const LitVertex &a = vertices[corners[0]], &b = vertices[corners[1]], &c = vertices[corners[2]];
-            if (face.plain && is_flat(a.depth, b.depth, c.depth)) {
-                fill_triangle(edges, t, origin_column, origin_row, layer,
-                              [&] { return plain_shading(a, b, c, tints[face.paints[0]]); });
-                continue;
-            }
-            const std::uint32_t paints[3] = {face.paints[0], face.paints[turned ? 2 : 1], face.paints[turned ? 1 : 2]};
-            fill_triangle(edges, t, origin_column, origin_row, layer, [&] {
-                const auto slope = [&](const std::int32_t(&of)[group]) {
-                    return static_cast<float>(of[t]) * edges.scale[t];
-                };
-                return rich_shading(
-                    mesh, face, corners, paints, vertices, tints,
-                    {slope(edges.along[1]), slope(edges.down[1]), slope(edges.along[2]), slope(edges.down[2])});
-            });
+            const FacingCorners corners = corners_of(mesh, facing[first + t].face, vertices, tints);
+            const Blocks blocks{origin_column + edges.first_column[t], origin_column + edges.end_column[t],
+                                origin_row + edges.first_row[t], origin_row + edges.end_row[t]};
+            constexpr float rounding = 1.0f + 1e-6f;
+            const float nearest_sample = nearest(corners) * rounding;
+            if (!all_hidden(layer, blocks, nearest_sample))
+                fill_triangle(mesh, edges, t, corners, nearest_sample, blocks, layer);
         }
     }
 }
@@ -445,8 +606,8 @@ Blocks blocks_of(const WideTriangle& t, const NearLayer& layer) {
     const auto [min_x, max_x] = std::minmax({t.x[0], t.x[1], t.x[2]});
     const auto [min_y, max_y] = std::minmax({t.y[0], t.y[1], t.y[2]});
     const auto block = [](std::int32_t at) { return at >= 0 ? at / step : -1; };  // none is left of the picture
-    return {std::max(block(min_x), layer.first_column()), std::min(block(max_x) + 1, layer.end_column()),
-            std::max(block(min_y), layer.first_row()), std::min(block(max_y) + 1, layer.end_row())};
+    return {std::max(block(min_x), layer.blocks().x0), std::min(block(max_x) + 1, layer.blocks().x1),
+            std::max(block(min_y), layer.blocks().y0), std::min(block(max_y) + 1, layer.blocks().y1)};
 }
 
 void fill_wide(const TextureLayers& textures, const WideTriangle& t, NearLayer& layer) {
@@ -478,15 +639,21 @@ void fill_wide(const TextureLayers& textures, const WideTriangle& t, NearLayer& 
                     const auto down = hn::Set(i, static_cast<std::int32_t>(grid_per_sample * edge.down));
                     outside = hn::Or(outside, hn::Add(start, hn::Add(hn::Mul(along, across), hn::Mul(down, below))));
                 }
-                const auto inside = hn::RebindMask(f, hn::Gt(outside, hn::Set(i, -1)));
-                if (hn::AllFalse(f, inside)) continue;
+                FloatMask mask = hn::RebindMask(f, hn::Gt(outside, hn::Set(i, -1)));
+                if (hn::AllFalse(f, mask)) continue;
                 const auto x_in = hn::ConvertTo(f, across), y_in = hn::ConvertTo(f, below);
                 const auto moved = [&](const WideEdge& edge, float slope_x, float slope_y) {
                     return hn::Add(hn::Add(share(edge), hn::Mul(x_in, hn::Set(f, slope_x))),
                                    hn::Mul(y_in, hn::Set(f, slope_y)));
                 };
-                shade(shades, moved(edges[1], slopes.second_x, slopes.second_y),
-                      moved(edges[2], slopes.third_x, slopes.third_y), inside, layer.block(column, row), lane);
+                const auto second = moved(edges[1], slopes.second_x, slopes.second_y);
+                const auto third = moved(edges[2], slopes.third_x, slopes.third_y);
+                const auto depth =
+                    between(shades.at.depth, shades.to_second.depth, shades.to_third.depth, second, third);
+                const Block block = layer.block(column - layer.blocks().x0, row - layer.blocks().y0);
+                if (!nearer(depth, mask, block, lane)) continue;
+                shade(shades, second, third, mask, block, lane);
+                update_farthest(block);
             }
         }
     }
@@ -505,8 +672,8 @@ namespace render::native {
 HWY_EXPORT(fill_person);
 HWY_EXPORT(fill_wide_all);
 
-void fill(const PersonMesh& mesh, const FacingTriangles& facing, int origin_x, int origin_y, const LitVertex* vertices,
-          const Tint* tints, NearLayer& layer) {
+void fill(const PersonMesh& mesh, std::span<const FacingTriangle> facing, int origin_x, int origin_y,
+          const LitVertex* vertices, const Tint* tints, NearLayer& layer) {
     HWY_DYNAMIC_DISPATCH(fill_person)(mesh, facing, origin_x, origin_y, vertices, tints, layer);
 }
 

@@ -33,9 +33,10 @@ struct WideTriangle {
 };
 inline constexpr std::int32_t wide_reach = 1 << 21;
 
-// `origin_x`, `origin_y`: the person's [samples], at a block's corner. `tints`: one a paint.
-void fill(const PersonMesh& mesh, const FacingTriangles& facing, int origin_x, int origin_y, const LitVertex* vertices,
-          const Tint* tints, NearLayer& layer);
+// `facing` can be read to the end of its last group. `origin_x`, `origin_y`: the person's [samples], at a block's
+// corner. `tints`: one a paint.
+void fill(const PersonMesh& mesh, std::span<const FacingTriangle> facing, int origin_x, int origin_y,
+          const LitVertex* vertices, const Tint* tints, NearLayer& layer);
 
 void fill(const TextureLayers& textures, std::span<const WideTriangle> triangles, NearLayer& layer);
 

@@ -62,21 +62,10 @@ namespace render::native {
 
 HWY_EXPORT(resolve_block);
 
-namespace {
-
-// Depths of the backdrop at a block's four pixels. The last ones may lie outside of the picture, where nobody looks.
-std::array<float, 4> depths_behind(const BackdropPicture& behind, int column, int row) {
-    const int x0 = sample_block_pixels * column, x1 = std::min(x0 + 1, behind.width - 1);
-    const int y0 = sample_block_pixels * row, y1 = std::min(y0 + 1, behind.height - 1);
-    const float* upper = behind.depth.row(y0);
-    const float* lower = behind.depth.row(y1);
-    return {upper[x0], upper[x1], lower[x0], lower[x1]};
-}
-
-}  // namespace
-
 NearLayer::NearLayer()
-    : blocks_(hwy::AllocateAligned<Block>(std::size_t{blocks_across} * blocks_across)),
+    : sample_depth_(hwy::AllocateAligned<float>(std::size_t{blocks_across} * blocks_across * block_samples)),
+      red_green_(hwy::AllocateAligned<std::uint32_t>(std::size_t{blocks_across} * blocks_across * block_samples)),
+      blue_(hwy::AllocateAligned<std::uint32_t>(std::size_t{blocks_across} * blocks_across * block_samples)),
       rgba_(hwy::AllocateAligned<std::uint16_t>(std::size_t{4} * tile_side * tile_side)),
       depth_(hwy::AllocateAligned<float>(std::size_t{tile_side} * tile_side)) {}
 
@@ -86,12 +75,25 @@ void NearLayer::begin(const Tile& tile, const BackdropPicture& behind) {
     tile_ = tile;
     behind_ = &behind;
     touched_ = {};
+    const auto up = [](int pixels) { return (pixels + sample_block_pixels - 1) / sample_block_pixels; };
+    blocks_ = {tile.x0 / sample_block_pixels, tile.y0 / sample_block_pixels, up(tile.x1), up(tile.y1)};
     begun_.fill(0);
+    farthest_.fill(-1);
 }
 
-void NearLayer::begin_block(Block& block, int column, int row) const {
-    const std::array<float, 4> behind = depths_behind(*behind_, column, row);
-    for (int i = 0; i < block_samples; ++i) block.depth[i] = behind[i % 4];
+// At a block's four pixels. The last ones may lie outside of the picture, where nobody looks.
+std::array<float, 4> NearLayer::depths_behind(int column, int row) const {
+    const int x0 = tile_.x0 + sample_block_pixels * column, x1 = std::min(x0 + 1, behind_->width - 1);
+    const int y0 = tile_.y0 + sample_block_pixels * row, y1 = std::min(y0 + 1, behind_->height - 1);
+    const float* upper = behind_->depth.row(y0);
+    const float* lower = behind_->depth.row(y1);
+    return {upper[x0], upper[x1], lower[x0], lower[x1]};
+}
+
+void NearLayer::begin_block(const Block& block, int column, int row) const {
+    const std::array<float, 4> behind = depths_behind(column, row);
+    for (int i = 0; i < block_samples; i += 4) std::copy(behind.begin(), behind.end(), block.depth + i);
+    *block.farthest = *std::ranges::min_element(behind);
     std::fill_n(block.red_green, block_samples, 0u);
     std::fill_n(block.blue, block_samples, 0u);
 }
@@ -124,8 +126,7 @@ void NearLayer::resolve() {
                 }
                 continue;
             }
-            const auto behind = depths_behind(*behind_, x + first_column(), y + first_row());
-            resolve_one(blocks_[y * blocks_across + x], behind.data(), rgba, depth);
+            resolve_one(block(x, y), depths_behind(x, y).data(), rgba, depth);
         }
     }
     touched_ = {tile_.x0 + sample_block_pixels * blocks.x0, tile_.y0 + sample_block_pixels * blocks.y0,

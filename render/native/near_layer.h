@@ -4,6 +4,7 @@
 #include <hwy/aligned_allocator.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "render/native/picture.h"
@@ -31,10 +32,12 @@ constexpr int sample_y(int i) {
     return samples_across * (i >> 1 & 1) + (i >> 3);
 }
 
+// A block's samples in a layer, each array at a multiple of 64 bytes.
 struct Block {
-    alignas(64) float depth[block_samples];  // near_plane / view depth of what is nearest, the backdrop's at first
-    std::uint32_t red_green[block_samples];  // linear, `full` is 1: red in the low half
-    std::uint32_t blue[block_samples];
+    float* depth;              // near_plane / view depth of what is nearest, the backdrop's at first
+    float* farthest;           // the least of depth: who changes one keeps up the other
+    std::uint32_t* red_green;  // linear, `full` is 1: red in the low half
+    std::uint32_t* blue;
 };
 
 // One per thread, reused: allocates once.
@@ -55,36 +58,42 @@ public:
     // Pixels of the picture that may be covered; empty if nobody was drawn.
     Rect touched() const { return touched_; }
 
-    // For who draws. Blocks are counted from the picture's corner; those of this tile are [first, end).
-    int first_column() const { return tile_.x0 / sample_block_pixels; }
-    int first_row() const { return tile_.y0 / sample_block_pixels; }
-    int end_column() const { return (tile_.x1 + sample_block_pixels - 1) / sample_block_pixels; }
-    int end_row() const { return (tile_.y1 + sample_block_pixels - 1) / sample_block_pixels; }
-    // Of this tile; begins at the backdrop's depth.
-    Block& block(int column, int row) {
-        const int x = column - first_column(), y = row - first_row();
-        Block& block = blocks_[y * blocks_across + x];
-        const std::uint64_t bit = std::uint64_t{1} << x;
-        if ((begun_[y] & bit) == 0) [[unlikely]] {
-            begun_[y] |= bit;
+    // For who draws. Blocks of the picture that are the tile's.
+    Rect blocks() const { return blocks_; }
+    // Counted from the tile's first; begins at the backdrop's depth.
+    Block block(int column, int row) {
+        const std::size_t number = number_of(column, row), first = number * block_samples;
+        const Block block{sample_depth_.get() + first, &farthest_[number], red_green_.get() + first,
+                          blue_.get() + first};
+        const std::uint64_t bit = std::uint64_t{1} << column;
+        if ((begun_[row] & bit) == 0) [[unlikely]] {
+            begun_[row] |= bit;
             begin_block(block, column, row);
         }
         return block;
     }
 
+    // That block's farthest; negative: nothing was drawn into it yet.
+    float farthest(int column, int row) const { return farthest_[number_of(column, row)]; }
+
 private:
     static constexpr int blocks_across = tile_side / sample_block_pixels;
     static_assert(blocks_across <= 64);  // a bit each
 
+    static std::size_t number_of(int column, int row) { return static_cast<std::size_t>(blocks_across * row + column); }
     std::ptrdiff_t row_start(int y) const { return std::ptrdiff_t{tile_side} * (y - tile_.y0); }
-    void begin_block(Block& block, int column, int row) const;
+    void begin_block(const Block& block, int column, int row) const;
+    std::array<float, 4> depths_behind(int column, int row) const;
     Rect begun_blocks() const;  // within the tile
 
     Tile tile_;
     const BackdropPicture* behind_ = nullptr;
-    Rect touched_;
-    std::array<std::uint64_t, blocks_across> begun_{};  // a row of blocks each
-    hwy::AlignedFreeUniquePtr<Block[]> blocks_;
+    Rect blocks_, touched_;
+    std::array<std::uint64_t, blocks_across> begun_{};             // a row of blocks each
+    std::array<float, blocks_across * blocks_across> farthest_{};  // of each block: all that hidden triangles look at
+    // Of samples, block by block. Apart, since most of what is drawn is hidden and looks no further than depths.
+    hwy::AlignedFreeUniquePtr<float[]> sample_depth_;
+    hwy::AlignedFreeUniquePtr<std::uint32_t[]> red_green_, blue_;
     hwy::AlignedFreeUniquePtr<std::uint16_t[]> rgba_;
     hwy::AlignedFreeUniquePtr<float[]> depth_;
 };

@@ -138,19 +138,14 @@ Daylight daylight_of(const scene::Light& light) {
 
 std::size_t PersonTriangles::size_of(const PersonMesh& mesh) {
     return in_groups(mesh.vertex_count) * sizeof(LitVertex) + mesh.paints.size() * sizeof(Tint) +
-           4 * (in_groups(mesh.faces.size()) + group) * sizeof(std::uint32_t);
+           (in_groups(mesh.faces.size()) + group) * sizeof(FacingTriangle);
 }
 
 void PersonTriangles::reserve(const PersonMesh& mesh) {
     const std::size_t vertices = in_groups(mesh.vertex_count), faces = in_groups(mesh.faces.size()) + group;
     if (vertices > vertex_room_) lit_ = hwy::AllocateAligned<LitVertex>(vertex_room_ = vertices);
     if (mesh.paints.size() > paint_room_) tints_ = hwy::AllocateAligned<Tint>(paint_room_ = mesh.paints.size());
-    if (faces > face_room_) {
-        face_room_ = faces;
-        listed_ = hwy::AllocateAligned<std::uint32_t>(4 * faces);
-        for (std::size_t i = 0; i < 3; ++i) facing_.corners[i] = listed_.get() + i * faces;
-        facing_.face = listed_.get() + 3 * faces;
-    }
+    if (faces > face_room_) facing_ = hwy::AllocateAligned<FacingTriangle>(face_room_ = faces);
 }
 
 void PersonTriangles::paint(const PersonMesh& mesh, const scene::Palette& palette) {
@@ -166,7 +161,7 @@ void PersonTriangles::paint(const PersonMesh& mesh, const scene::Palette& palett
 }
 
 Rect PersonTriangles::place(const View& view, const Daylight& daylight, const PersonMesh& mesh, const Person& person) {
-    facing_.count = 0;
+    facing_count_ = 0;
     wide_.clear();
     const auto placement = placement_of(view, daylight.to_sun, mesh.poses->box, person.instance);
     if (!placement) return {};
@@ -199,8 +194,8 @@ Rect PersonTriangles::place_on_grid(const View& view, const PersonMesh& mesh, co
         const auto y = static_cast<std::uint32_t>(places.down[v] - origin_y_ * grid_per_sample);
         packed[v] = (x & 0xffffu) | y << 16;
     }
-    find_facing(mesh, packed, facing_);
-    return facing_.count == 0 ? Rect{} : pixels_of(view, extent);
+    facing_count_ = find_facing(mesh, packed, facing_.get());
+    return facing_count_ == 0 ? Rect{} : pixels_of(view, extent);
 }
 
 Rect PersonTriangles::place_anywhere(const View& view, const PersonMesh& mesh, const Placement& placement,
@@ -229,7 +224,7 @@ Rect PersonTriangles::place_anywhere(const View& view, const PersonMesh& mesh, c
 
 void PersonTriangles::draw(const PersonMesh& mesh, NearLayer& layer) const {
     if (wide_.empty())
-        fill(mesh, facing_, origin_x_, origin_y_, lit_.get(), tints_.get(), layer);
+        fill(mesh, std::span(facing_.get(), facing_count_), origin_x_, origin_y_, lit_.get(), tints_.get(), layer);
     else
         fill(mesh.textures, wide_, layer);
 }

@@ -38,8 +38,8 @@ private:
     std::size_t vertex_room_ = 0, face_room_ = 0, paint_room_ = 0;
     hwy::AlignedFreeUniquePtr<LitVertex[]> lit_;
     hwy::AlignedFreeUniquePtr<Tint[]> tints_;
-    hwy::AlignedFreeUniquePtr<std::uint32_t[]> listed_;  // what facing_ points into
-    FacingTriangles facing_{};
+    hwy::AlignedFreeUniquePtr<FacingTriangle[]> facing_;
+    std::uint32_t facing_count_ = 0;
     int origin_x_ = 0, origin_y_ = 0;  // [samples]
     std::vector<WideTriangle> wide_;   // instead of facing_, of who is too large or too near for it
 };

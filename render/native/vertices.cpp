@@ -137,7 +137,25 @@ hn::Mask<Ints> holds_sample(VInt least, VInt most) {
 }
 static_assert(grid_per_sample == 16);
 
-void find_all_facing(const PersonMesh& mesh, const std::uint32_t* packed, FacingTriangles& to) {
+// Those of one vector that are to be kept; writes a vector's worth. By scalars: what compresses vectors is slow where
+// it is a table's work.
+std::uint32_t append(hn::Vec<Words> a, hn::Vec<Words> b, hn::Vec<Words> c, hn::Vec<Words> face, hn::Mask<Words> keep,
+                     FacingTriangle* to) {
+    const Words w;
+    FacingTriangle all[group];
+    std::uint8_t bytes[8] = {};  // as many as may be written
+    hn::StoreInterleaved4(a, b, c, face, w, all[0].corners);
+    hn::StoreMaskBits(w, keep, bytes);
+    const std::uint32_t bits = bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8;
+    std::uint32_t count = 0;
+    for (std::size_t lane = 0; lane < hn::Lanes(w); ++lane) {
+        to[count] = all[lane];
+        count += bits >> lane & 1;
+    }
+    return count;
+}
+
+std::uint32_t find_all_facing(const PersonMesh& mesh, const std::uint32_t* packed, FacingTriangle* to) {
     const Ints i;
     const Words w;
     const auto* places = reinterpret_cast<const std::int32_t*>(packed);
@@ -165,12 +183,9 @@ void find_all_facing(const PersonMesh& mesh, const std::uint32_t* packed, Facing
         const auto in_columns = holds_sample(hn::Min(ax, hn::Min(bx, cx)), hn::Max(ax, hn::Max(bx, cx)));
         const auto in_rows = holds_sample(hn::Min(ay, hn::Min(by, cy)), hn::Max(ay, hn::Max(by, cy)));
         const auto keep = hn::RebindMask(w, hn::And(seen, hn::And(in_columns, in_rows)));
-        hn::CompressStore(hn::BitCast(w, a), keep, w, to.corners[0] + count);
-        hn::CompressStore(hn::BitCast(w, b), keep, w, to.corners[1] + count);
-        hn::CompressStore(hn::BitCast(w, c), keep, w, to.corners[2] + count);
-        count += static_cast<std::uint32_t>(hn::CompressStore(number, keep, w, to.face + count));
+        count += append(hn::BitCast(w, a), hn::BitCast(w, b), hn::BitCast(w, c), number, keep, to + count);
     }
-    to.count = count;
+    return count;
 }
 
 }  // namespace render::native::HWY_NAMESPACE
@@ -187,8 +202,8 @@ Extent place_vertices(const Placement& placement, const Daylight& daylight, std:
     return HWY_DYNAMIC_DISPATCH(place_all)(placement, daylight, posed, double_sided, lit, across, down);
 }
 
-void find_facing(const PersonMesh& mesh, const std::uint32_t* packed, FacingTriangles& to) {
-    HWY_DYNAMIC_DISPATCH(find_all_facing)(mesh, packed, to);
+std::uint32_t find_facing(const PersonMesh& mesh, const std::uint32_t* packed, FacingTriangle* to) {
+    return HWY_DYNAMIC_DISPATCH(find_all_facing)(mesh, packed, to);
 }
 
 }  // namespace render::native

@@ -49,16 +49,16 @@ struct Extent {
 Extent place_vertices(const Placement& placement, const Daylight& daylight, std::span<const motion::PosedVertex> posed,
                       bool double_sided, LitVertex* lit, std::int32_t* across, std::int32_t* down);
 
-// Triangles that may hit a sample, in the mesh's order: x in the low half, y in the high one, signed [grid steps] from
-// the person's origin.
-struct FacingTriangles {
-    std::uint32_t count;
-    std::uint32_t* corners[3];  // clockwise on the screen
-    std::uint32_t* face;        // into the mesh's; from_behind: seen from its other side, corners 1 and 2 swapped
+// A triangle that may hit a sample. Corners have x in the low half, y in the high one, signed [grid steps] from the
+// person's origin, and go clockwise on the screen.
+struct alignas(16) FacingTriangle {
+    std::uint32_t corners[3];
+    std::uint32_t face;  // into the mesh's; from_behind: seen from its other side, corners 1 and 2 swapped
 };
 inline constexpr std::uint32_t from_behind = 1u << 31;
 
-// `packed`: the vertices' places, as above. `to` has room for all faces and a group more; sets its count.
-void find_facing(const PersonMesh& mesh, const std::uint32_t* packed, FacingTriangles& to);
+// `packed`: the vertices' places, as above. `to` has room for all faces and a group more. Returns how many there are,
+// in the mesh's order.
+std::uint32_t find_facing(const PersonMesh& mesh, const std::uint32_t* packed, FacingTriangle* to);
 
 }  // namespace render::native

@@ -75,10 +75,10 @@ void write(const std::string& name, const std::vector<const Picture*>& beside) {
 }
 
 struct Difference {
-    int inner = 0;       // pixels that are covered wholly, and not beside an edge of depth
+    int inner = 0;       // pixels that are covered wholly
     double far_off = 0;  // the share of them that is off by more than `close`
-    double mean = 0;     // [of 255] of them
-    double outline = 0;  // [of 255] the mean over the pixels at the outline
+    double mean = 0;     // [of 255] how far they are off
+    double outline = 0;  // [of 255] the same of pixels at the outline
 };
 constexpr double close = 2;  // [of 255]
 
@@ -111,19 +111,13 @@ Difference compare(const Picture& native, const Picture& gl, const tests::Layer&
     return d;
 }
 
-struct Subject {
-    std::string name;
-    model::Character character;
-    double scale = 1;  // of whoever is 1.75 m tall then
-};
-
 struct Shot {
     std::string name;
     scene::CameraPose pose;
     int width, height;
 };
 
-// The subject's middle at the origin.
+// With their middle at the origin.
 Difference shoot(const reference::Model& model, const std::string& name, const Shot& shot) {
     const double scale = 1.75 / model.figure.height();
     reference::Person person;
@@ -155,7 +149,7 @@ Difference shoot(const reference::Model& model, const std::string& name, const S
     return compare(native, gl, layer);
 }
 
-// So far away that the subject is so many pixels tall.
+// From so far away that whoever is 1.75 m tall takes so many pixels.
 Shot tall(int pixels) {
     const double fov = 0.9;
     const int height = pixels * 5 / 4;
@@ -167,7 +161,7 @@ Shot tall(int pixels) {
     return {std::to_string(pixels), pose, height, height};
 }
 
-// Through the subject.
+// With the camera inside of them.
 Shot inside() {
     scene::CameraPose pose;
     pose.position = {0.05, 0.3, 0.25};
@@ -181,14 +175,15 @@ void expect_alike(const std::string& name, model::Character character) {
     const reference::Model model(std::move(character), casting.clips, 64);
     for (const Shot& shot : {tall(400), tall(150), tall(60), tall(1500), inside()}) {
         const Difference d = shoot(model, name, shot);
-        SCOPED_TRACE(name + " " + shot.name + ": " + std::to_string(d.inner) + " px, off " + std::to_string(d.far_off) +
-                     ", mean " + std::to_string(d.mean) + ", outline " + std::to_string(d.outline));
-        if (std::getenv("GRANDSTAND_PICTURES") != nullptr)
-            std::printf("%s %s: %d px, %.4f off by more than 2, mean %.3f, outline %.2f\n", name.c_str(),
-                        shot.name.c_str(), d.inner, d.far_off, d.mean, d.outline);
-        EXPECT_GT(d.inner, 0);
-        EXPECT_LT(d.mean, 1.0);
-        EXPECT_LT(d.outline, 4.0);
+        const std::string text = name + " " + shot.name + ": " + std::to_string(d.inner) + " pixels, a share of " +
+                                 std::to_string(d.far_off) + " off by more than 2, mean " + std::to_string(d.mean) +
+                                 ", at the outline " + std::to_string(d.outline);
+        std::printf("%s\n", text.c_str());
+        EXPECT_GT(d.inner, 0) << text;
+        // Where parts overlap, edges of a sixteenth of a sample decide; and the mipmap is the driver's own choice.
+        EXPECT_LT(d.far_off, 0.1) << text;
+        EXPECT_LT(d.mean, 1.5) << text;
+        EXPECT_LT(d.outline, 3.0) << text;
     }
 }
 
