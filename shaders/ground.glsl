@@ -28,9 +28,24 @@ vec2 other_side(vec2 edge) { return vec2(-edge.x, edge.y); }
 real line(vec2 edge, real half_width) {
     real pixel = edge.y;
     real w = max(half_width, 0.5f * pixel);
+    if (!somewhere(abs(edge.x) < w + pixel)) return 0.0f;
     return clamp((w - abs(edge.x)) / pixel + 0.5f, 0.0f, 1.0f) * half_width / w;
 }
 real inside(vec2 edge) { return clamp(0.5f - edge.x / edge.y, 0.0f, 1.0f); }
+
+// Of a line along a circle, and of all inside of one. Most pixels are too far from it for its distance to matter.
+real ring(vec2 p, real radius, real half_width) {
+    real reach = half_width + 2.0f * (footprint.x + footprint.y);
+    real inner = max(radius - reach, 0.0f), outer = radius + reach;
+    real square = dot(p, p);
+    if (!somewhere(max(inner * inner - square, square - outer * outer) < 0.0f)) return 0.0f;
+    return line(circle(p, radius), half_width);
+}
+real disc(vec2 p, real radius) {
+    real outer = radius + 2.0f * (footprint.x + footprint.y);
+    if (!somewhere(dot(p, p) < outer * outer)) return 0.0f;
+    return inside(circle(p, radius));
+}
 
 vec3 daylight() { return vec3(Frame.sky_light) + vec3(Frame.sun_color) * max(Frame.sun_direction.y, 0.0f); }
 

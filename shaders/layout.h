@@ -13,11 +13,12 @@ using mat4 = glm::mat4;
     }                   \
     ;
 #else
-// What C++ computes too, many pixels at once (render/native/glsl.h), is written with `real` for a pixel's own numbers and
-// `select` for its choices.
+// What C++ computes too, many pixels at once (render/native/glsl.h), is written with `real` for a pixel's own numbers,
+// `select` for its choices, and `somewhere` for leaving out what makes no difference to any: here nothing is left out.
 #define real float
 real select(bool condition, real yes, real no) { return condition ? yes : no; }
 vec2 select(bool condition, vec2 yes, vec2 no) { return condition ? yes : no; }
+bool somewhere(bool condition) { return true; }
 #define CONSTANT const int
 #define BLOCK_BEGIN(name, slot) layout(std140, binding = slot) uniform name##Block {
 #define BLOCK_END(name) \

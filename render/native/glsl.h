@@ -51,6 +51,9 @@ HWY_INLINE Bool operator<(real a, real b) {
 HWY_INLINE Bool operator>(real a, real b) {
     return {hn::Gt(a.v, b.v)};
 }
+HWY_INLINE bool somewhere(Bool condition) {
+    return !hn::AllFalse(Floats(), condition.m);
+}
 HWY_INLINE real select(Bool condition, real yes, real no) {
     return real(hn::IfThenElse(condition.m, yes.v, no.v));
 }
@@ -78,8 +81,9 @@ HWY_INLINE real sign(real a) {
 HWY_INLINE real clamp(real a, real low, real high) {
     return min(max(a, low), high);
 }
+// Of shares 0 and 1, a and b to the bit: what `somewhere` leaves out is left out of any number of pixels alike.
 HWY_INLINE real mix(real a, real b, real share) {
-    return a + (b - a) * share;
+    return a * (1.0f - share) + b * share;
 }
 
 // `power`: a power of two.
@@ -167,7 +171,7 @@ HWY_INLINE vec3 operator*(real a, vec3 b) {
     return b * a;
 }
 HWY_INLINE vec3 mix(vec3 a, vec3 b, real share) {
-    return a + (b - a) * share;
+    return a * (1.0f - share) + b * share;
 }
 HWY_INLINE vec3 sqrt(vec3 a) {
     return {sqrt(a.x), sqrt(a.y), sqrt(a.z)};
