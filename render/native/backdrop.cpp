@@ -3,6 +3,8 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cassert>
 #include <cstring>
 #include <map>
@@ -20,15 +22,16 @@ namespace {
 class Numbering {
 public:
     std::uint32_t of(glm::vec3 position) {
-        const auto [found, is_new] = numbers_.try_emplace(std::tuple(position.x, position.y, position.z),
-                                                          static_cast<std::uint32_t>(positions_.size()));
+        // By their bits, among which there is an order whatever they mean.
+        const auto bits = std::bit_cast<std::array<std::uint32_t, 3>>(position);
+        const auto [found, is_new] = numbers_.try_emplace(bits, static_cast<std::uint32_t>(positions_.size()));
         if (is_new) positions_.push_back(position);
         return found->second;
     }
     const std::vector<glm::vec3>& positions() const { return positions_; }
 
 private:
-    std::map<std::tuple<float, float, float>, std::uint32_t> numbers_;
+    std::map<std::array<std::uint32_t, 3>, std::uint32_t> numbers_;
     std::vector<glm::vec3> positions_;
 };
 

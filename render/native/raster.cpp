@@ -81,9 +81,8 @@ using Words = hn::RebindToUnsigned<Floats>;
 constexpr int lanes = static_cast<int>(hn::MaxLanes(Floats()));
 constexpr int columns = std::min(lanes, block_side), rows = lanes / columns;
 
-HWY_ALIGN constexpr std::int32_t lane_column[16] = {0, 1, 2, 3, 4 % columns, 5 % columns, 6 % columns, 7 % columns,
-                                                    0, 1, 2, 3, 4,           5,           6,           7};
-HWY_ALIGN constexpr std::int32_t lane_row[16] = {0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1};
+HWY_ALIGN constexpr float lane_column[16] = {0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7};
+HWY_ALIGN constexpr float lane_row[16] = {0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1};
 
 void clear(Cell& cell, int width, int height) {
     const Floats d;
@@ -111,7 +110,9 @@ void clear(Cell& cell, int width, int height) {
 // A triangle in a cell, with what every vector of it needs.
 struct Setup {
     std::array<Edge, 3> edges;
-    std::array<hn::Vec<Ints>, 3> lane_values;  // what lanes' edges are beyond the first's
+    std::array<hn::Vec<Ints>, 3> lane_values;       // what lanes' edges are beyond the first's
+    std::array<hn::Vec<Ints>, 3> step;              // to the next rows
+    std::array<std::int32_t, 3> to_most, to_least;  // of a block, beyond its first pixel
     float depth_x, depth_y;
     std::uint32_t surface;
 };
@@ -123,6 +124,13 @@ HWY_INLINE bool is_in_front(const Setup& setup, float depth, float farthest) {
     return along_y + last * std::max(setup.depth_x, 0.0f) > farthest;
 }
 
+HWY_INLINE float least_depth(const float* depth) {
+    const Floats d;
+    auto least = hn::Load(d, depth);
+    for (int i = lanes; i < block_pixels; i += lanes) least = hn::Min(least, hn::Load(d, depth + i));
+    return hn::GetLane(hn::MinOfLanes(d, least));
+}
+
 // at: the edges' values at the block's first pixel.
 template <bool is_whole>
 HWY_INLINE void draw_block(const Setup& setup, const std::array<std::int32_t, 3>& at, float block_depth, int first_row,
@@ -130,34 +138,37 @@ HWY_INLINE void draw_block(const Setup& setup, const std::array<std::int32_t, 3>
     const Floats d;
     const Ints di;
     const Words du;
+    float* depths = &cell.depth[block * block_pixels];
+    std::uint32_t* surfaces = &cell.surface[block * block_pixels];
     const auto surface = hn::Set(du, setup.surface);
     const auto slope_y = hn::Set(d, setup.depth_y), start = hn::Set(d, block_depth);
+    const int row0 = first_row / rows * rows;
     for (int column = 0; column < block_side; column += columns) {
-        const auto along_x = hn::Mul(hn::Set(d, setup.depth_x),
-                                     hn::ConvertTo(d, hn::Add(hn::Load(di, lane_column), hn::Set(di, column))));
-        for (int row = first_row / rows * rows; row <= last_row; row += rows) {
-            const std::size_t at_pixel = block * block_pixels + row * block_side + column;
-            const auto y = hn::ConvertTo(d, hn::Add(hn::Load(di, lane_row), hn::Set(di, row)));
+        const auto x = hn::Add(hn::Load(d, lane_column), hn::Set(d, static_cast<float>(column)));
+        const auto along_x = hn::Mul(hn::Set(d, setup.depth_x), x);
+        auto y = hn::Add(hn::Load(d, lane_row), hn::Set(d, static_cast<float>(row0)));
+        const auto first = [&](std::size_t i) HWY_ATTR {
+            const Edge& edge = setup.edges[i];
+            return hn::Add(hn::Set(di, at[i] + row0 * edge.step_y + column * edge.step_x), setup.lane_values[i]);
+        };
+        auto a = first(0), b = first(1), c = first(2);
+        for (int row = row0; row <= last_row; row += rows) {
+            const int pixel = row * block_side + column;
             const auto depth = hn::Add(hn::Add(start, hn::Mul(slope_y, y)), along_x);
-            const auto before = hn::Load(d, &cell.depth[at_pixel]);
+            const auto before = hn::Load(d, depths + pixel);
             auto wins = hn::Gt(depth, before);
-            if constexpr (!is_whole) {
-                const auto value = [&](std::size_t i) HWY_ATTR {
-                    const Edge& edge = setup.edges[i];
-                    return hn::Add(hn::Set(di, at[i] + row * edge.step_y + column * edge.step_x), setup.lane_values[i]);
-                };
-                const auto side = hn::Or(hn::Or(value(0), value(1)), value(2));
-                wins = hn::And(wins, hn::RebindMask(d, hn::Gt(side, hn::Set(di, -1))));
-            }
-            hn::Store(hn::IfThenElse(wins, depth, before), d, &cell.depth[at_pixel]);
-            const auto old = hn::Load(du, &cell.surface[at_pixel]);
-            hn::Store(hn::IfThenElse(hn::RebindMask(du, wins), surface, old), du, &cell.surface[at_pixel]);
+            if constexpr (!is_whole)
+                wins = hn::And(wins, hn::RebindMask(d, hn::Gt(hn::Or(hn::Or(a, b), c), hn::Set(di, -1))));
+            hn::Store(hn::IfThenElse(wins, depth, before), d, depths + pixel);
+            const auto old = hn::Load(du, surfaces + pixel);
+            hn::Store(hn::IfThenElse(hn::RebindMask(du, wins), surface, old), du, surfaces + pixel);
+            y = hn::Add(y, hn::Set(d, static_cast<float>(rows)));
+            a = hn::Add(a, setup.step[0]);
+            b = hn::Add(b, setup.step[1]);
+            c = hn::Add(c, setup.step[2]);
         }
     }
-    auto least = hn::Load(d, &cell.depth[block * block_pixels]);
-    for (int i = lanes; i < block_pixels; i += lanes)
-        least = hn::Min(least, hn::Load(d, &cell.depth[block * block_pixels + i]));
-    cell.farthest[block] = hn::GetLane(hn::MinOfLanes(d, least));
+    cell.farthest[block] = least_depth(depths);
 }
 
 HWY_INLINE bool is_hidden(const ScreenTriangle& triangle, const Reach& reach, const Cell& cell) {
@@ -171,46 +182,65 @@ HWY_INLINE bool set_up(const ScreenTriangle& triangle, std::uint32_t surface_off
     for (int i = 0; i < 3; ++i)
         if (!make_edge(triangle, i, (i + 1) % 3, cell, out.edges[i])) return false;
     const Ints di;
-    for (int i = 0; i < 3; ++i)
-        out.lane_values[i] = hn::Add(hn::Mul(hn::Load(di, lane_column), hn::Set(di, out.edges[i].step_x)),
-                                     hn::Mul(hn::Load(di, lane_row), hn::Set(di, out.edges[i].step_y)));
+    const auto column = hn::ConvertTo(di, hn::Load(Floats(), lane_column));
+    const auto row = hn::ConvertTo(di, hn::Load(Floats(), lane_row));
+    for (int i = 0; i < 3; ++i) {
+        const Edge& edge = out.edges[i];
+        out.lane_values[i] = hn::Add(hn::Mul(column, hn::Set(di, edge.step_x)), hn::Mul(row, hn::Set(di, edge.step_y)));
+        out.step[i] = hn::Set(di, rows * edge.step_y);
+        out.to_most[i] = edge.most(0, block_side);
+        out.to_least[i] = edge.least(0, block_side);
+    }
     out.depth_x = static_cast<float>(triangle.depth_x);
     out.depth_y = static_cast<float>(triangle.depth_y);
     out.surface = triangle.surface + surface_offset;
     return true;
 }
 
+// How many blocks to the right the edges let through first, and none of those before; cell_blocks if there is none.
+HWY_INLINE int blocks_to_skip(const Setup& setup, const std::array<std::int32_t, 3>& at) {
+    int skip = 0;
+    for (int i = 0; i < 3; ++i) {
+        const std::int32_t value = at[i] + setup.to_most[i], step = block_side * setup.edges[i].step_x;
+        if (value >= 0) continue;
+        if (step <= 0) return cell_blocks;
+        skip = std::max(skip, (step - 1 - value) / step);
+    }
+    return skip;
+}
+
+// The row's blocks that the edges let through are neighbours: the loop ends behind the last.
+HWY_INLINE void draw_row(const ScreenTriangle& triangle, const Setup& setup, const Reach& reach, int row, Cell& cell) {
+    std::array<std::int32_t, 3> at;
+    for (int i = 0; i < 3; ++i) {
+        const Edge& edge = setup.edges[i];
+        at[i] = edge.value + block_side * (reach.first_column * edge.step_x + row * edge.step_y);
+    }
+    const int skip = blocks_to_skip(setup, at);
+    if (reach.first_column + skip > reach.last_column) return;
+    for (int i = 0; i < 3; ++i) at[i] += skip * block_side * setup.edges[i].step_x;
+    const int first = std::max(reach.first_pixel_row - row * block_side, 0);
+    const int last = std::min(reach.last_pixel_row - row * block_side, block_side - 1);
+    const double row_depth = triangle.depth + triangle.depth_y * (cell.y0 + row * block_side);
+    for (int column = reach.first_column + skip; column <= reach.last_column; ++column) {
+        const std::array<std::int32_t, 3> here = at;
+        if (((here[0] + setup.to_most[0]) | (here[1] + setup.to_most[1]) | (here[2] + setup.to_most[2])) < 0) return;
+        for (int i = 0; i < 3; ++i) at[i] += block_side * setup.edges[i].step_x;
+        const std::size_t block = Cell::block(column, row);
+        const auto depth = static_cast<float>(row_depth + triangle.depth_x * (cell.x0 + column * block_side));
+        if (!is_in_front(setup, depth, cell.farthest[block])) continue;
+        if (((here[0] + setup.to_least[0]) | (here[1] + setup.to_least[1]) | (here[2] + setup.to_least[2])) >= 0)
+            draw_block<true>(setup, here, depth, 0, block_side - 1, block, cell);
+        else
+            draw_block<false>(setup, here, depth, first, last, block, cell);
+    }
+}
+
 HWY_INLINE void draw(const ScreenTriangle& triangle, std::uint32_t surface_offset, Cell& cell) {
     const Reach reach = reach_in(triangle, cell);
     Setup setup;
     if (is_hidden(triangle, reach, cell) || !set_up(triangle, surface_offset, cell, setup)) return;
-    std::array<std::int32_t, 3> to_most, to_least;
-    for (int i = 0; i < 3; ++i) {
-        to_most[i] = setup.edges[i].most(0, block_side);
-        to_least[i] = setup.edges[i].least(0, block_side);
-    }
-    for (int row = reach.first_row; row <= reach.last_row; ++row) {
-        const int first = std::max(reach.first_pixel_row - row * block_side, 0);
-        const int last = std::min(reach.last_pixel_row - row * block_side, block_side - 1);
-        const double row_depth = triangle.depth + triangle.depth_y * (cell.y0 + row * block_side);
-        std::array<std::int32_t, 3> at;
-        for (int i = 0; i < 3; ++i) {
-            const Edge& edge = setup.edges[i];
-            at[i] = edge.value + block_side * (reach.first_column * edge.step_x + row * edge.step_y);
-        }
-        for (int column = reach.first_column; column <= reach.last_column; ++column) {
-            const std::array<std::int32_t, 3> here = at;
-            for (int i = 0; i < 3; ++i) at[i] += block_side * setup.edges[i].step_x;
-            if (((here[0] + to_most[0]) | (here[1] + to_most[1]) | (here[2] + to_most[2])) < 0) continue;
-            const std::size_t block = Cell::block(column, row);
-            const auto depth = static_cast<float>(row_depth + triangle.depth_x * (cell.x0 + column * block_side));
-            if (!is_in_front(setup, depth, cell.farthest[block])) continue;
-            if (((here[0] + to_least[0]) | (here[1] + to_least[1]) | (here[2] + to_least[2])) >= 0)
-                draw_block<true>(setup, here, depth, 0, block_side - 1, block, cell);
-            else
-                draw_block<false>(setup, here, depth, first, last, block, cell);
-        }
-    }
+    for (int row = reach.first_row; row <= reach.last_row; ++row) draw_row(triangle, setup, reach, row, cell);
 }
 
 void rasterize(std::span<const ScreenTriangle> triangles, std::span<const std::uint32_t> chosen,
