@@ -1,0 +1,292 @@
+// The native background: the same bits on every instruction set, thread and tile, against a rasteriser of plain
+// doubles.
+#include "render/native/backdrop.h"
+
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <random>
+
+#include "scene/places/stadium.h"
+#include "tests/native/painting.h"
+
+namespace {
+
+using render::native::BackdropPicture;
+using render::native::Tile;
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+struct Stadium {
+    scene::StadiumPlan plan = scene::plan_stadium(600);
+    scene::StaticMesh structure = scene::build_structure(plan);
+    scene::Cameras cameras = scene::aim_cameras(plan);
+    render::native::Backdrop backdrop{structure, scene::paint_ground(plan), scene::Light{}};
+
+    std::vector<scene::CameraPose> poses() const {
+        return {cameras.still.at(0), cameras.close.at(0), cameras.medium.at(0), cameras.remote.at(0),
+                cameras.roam.at(7)};
+    }
+};
+
+bool are_equal(const BackdropPicture& a, const BackdropPicture& b) {
+    for (int y = 0; y < a.height; ++y)
+        if (std::memcmp(a.color.row(y), b.color.row(y), sizeof(std::uint32_t) * a.width) != 0 ||
+            std::memcmp(a.depth.row(y), b.depth.row(y), sizeof(float) * a.width) != 0)
+            return false;
+    const int across = render::native::blocks_across(a.width);
+    for (int y = 0; y < render::native::blocks_across(a.height); ++y)
+        if (std::memcmp(a.farthest.row(y), b.farthest.row(y), sizeof(float) * across) != 0) return false;
+    return true;
+}
+
+// Restores the processor's own instruction sets.
+struct OnlyTarget {
+    explicit OnlyTarget(std::int64_t target) { hwy::SetSupportedTargetsForTest(target); }
+    ~OnlyTarget() { hwy::SetSupportedTargetsForTest(0); }
+};
+
+TEST(NativeBackdrop, IsTheSameOnEveryInstructionSet) {
+    const std::int64_t all = hwy::SupportedTargets();
+    for (const auto& [width, height] : {std::pair(323, 187), std::pair(1, 1), std::pair(64, 8)})
+        for (std::size_t camera = 0; camera < Stadium().poses().size(); ++camera) {
+            std::optional<BackdropPicture> first;
+            for (std::int64_t rest = all; rest != 0; rest &= rest - 1) {
+                const OnlyTarget only(rest & -rest);
+                Stadium stadium;
+                BackdropPicture picture =
+                    tests::paint(stadium.backdrop, render::make_view(stadium.poses()[camera], width, height));
+                if (first)
+                    EXPECT_TRUE(are_equal(*first, picture)) << hwy::TargetName(rest & -rest) << ", camera " << camera;
+                else
+                    first = std::move(picture);
+            }
+        }
+}
+
+TEST(NativeBackdrop, IsTheSameForAnyThreadsAndTiles) {
+    Stadium stadium;
+    for (const scene::CameraPose& pose : stadium.poses()) {
+        const render::View view = render::make_view(pose, 517, 301);
+        const BackdropPicture whole = tests::paint(stadium.backdrop, view);
+        for (const int threads : {1, 2, 3, 8}) {
+            oneapi::tbb::task_arena arena(threads);
+            for (const int side : {8, 24, 128, 200}) {
+                BackdropPicture picture = tests::empty_picture(view.width, view.height);
+                arena.execute([&] {
+                    stadium.backdrop.aim(view);
+                    const std::vector<Tile> tiles = tests::tiles_of(view.width, view.height, side);
+                    oneapi::tbb::parallel_for(std::size_t{0}, tiles.size(),
+                                              [&](std::size_t i) { stadium.backdrop.paint(tiles[i], picture); });
+                });
+                EXPECT_TRUE(are_equal(whole, picture)) << threads << " threads, tiles of " << side;
+            }
+        }
+    }
+}
+
+TEST(NativeBackdrop, KnowsTheFarthestOfEveryBlock) {
+    Stadium stadium;
+    const BackdropPicture picture = tests::paint(stadium.backdrop, render::make_view(stadium.poses()[3], 333, 99));
+    for (int row = 0; row < render::native::blocks_across(99); ++row)
+        for (int column = 0; column < render::native::blocks_across(333); ++column) {
+            float least = infinity;
+            for (int y = 8 * row; y < std::min(8 * row + 8, 99); ++y)
+                for (int x = 8 * column; x < std::min(8 * column + 8, 333); ++x)
+                    least = std::min(least, picture.depth.row(y)[x]);
+            EXPECT_EQ(picture.farthest.row(row)[column], least);
+        }
+}
+
+// Triangles of one colour each; `corners` three a triangle.
+scene::StaticMesh mesh_of(const std::vector<glm::vec3>& corners) {
+    scene::StaticMesh mesh;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const auto id = static_cast<std::uint8_t>(1 + i / 3 % 250);
+        mesh.vertices.push_back({corners[i], glm::vec3(0, 1, 0), glm::u8vec4(id, 255 - id, 40, 0)});
+        mesh.indices.push_back(static_cast<std::uint32_t>(i));
+    }
+    constexpr float everywhere = 1e30f;
+    mesh.sectors = {{{glm::vec3(-everywhere), glm::vec3(everywhere)}, 0, static_cast<std::uint32_t>(corners.size())}};
+    return mesh;
+}
+
+// Light that shows colours as they are.
+scene::Light plain_light() {
+    scene::Light light;
+    light.sun = light.glare = glm::vec3(0);
+    light.from_above = light.from_below = glm::vec3(1);
+    return light;
+}
+
+// [px] What float32 leaves open about where a camera-relative corner is on the screen.
+double blur(const render::View& view, glm::dvec3 corner) {
+    const double away = glm::dot(corner, glm::dvec3(view.forward));
+    if (away < static_cast<double>(render::near_plane)) return 0;  // clipped in doubles
+    const double across = glm::length(corner) / away;
+    const double pixels = 2 * static_cast<double>(view.pixels_per_metre(1.0f));
+    return 4e-7 * across * pixels * (1 + across);
+}
+
+struct Seen {
+    double nearest = 0;  // reversed depth
+    std::size_t triangle = 0;
+    bool is_sure = true;  // no edge, and no two depths, are near
+};
+
+// By rays in doubles, without projecting or clipping anything: what the pixel's centre sees, front sides only.
+Seen look(const render::View& view, const std::vector<glm::vec3>& corners, int x, int y) {
+    const auto ray_at = [&](double px, double py) {
+        const double across = 2 * px / view.width - 1, up = 1 - 2 * py / view.height;
+        return glm::dvec3(view.forward) + across * view.tan_half_x * glm::dvec3(view.right) +
+               up * view.tan_half_y * glm::dvec3(view.up);
+    };
+    const glm::dvec3 ray = ray_at(x + 0.5, y + 0.5);
+    constexpr double rounding = 1.5 / 256;  // [px] corners are rounded to 1/256, which moves an edge by less than 1/256
+    Seen seen;
+    for (std::size_t i = 0; i < corners.size(); i += 3) {
+        glm::dvec3 v[3];
+        for (int c = 0; c < 3; ++c) v[c] = glm::dvec3(corners[i + c] - glm::vec3(view.position));
+        if (!std::isfinite(v[0].x + v[0].y + v[0].z + v[1].x + v[1].y + v[1].z + v[2].x + v[2].y + v[2].z)) continue;
+        const glm::dvec3 normal = glm::cross(v[1] - v[0], v[2] - v[0]);
+        const double nearby = rounding + std::max({blur(view, v[0]), blur(view, v[1]), blur(view, v[2])});
+        // Reversed depth is linear in the pixel, as forward . ray is 1; at 1 the near plane cuts.
+        const auto depth_at = [&](double px, double py) {
+            return static_cast<double>(render::near_plane) * glm::dot(normal, ray_at(px, py)) / glm::dot(normal, v[0]);
+        };
+        const double depth = depth_at(x + 0.5, y + 0.5);
+        const double slope = std::hypot(depth_at(x + 1.5, y + 0.5) - depth, depth_at(x + 0.5, y + 1.5) - depth);
+        // Corners that coincide, a back, or in front of the near plane.
+        if (!(glm::dot(normal, ray) < 0) || depth <= 0 || depth - 1 > nearby * slope) continue;
+        bool is_near_edge = false, is_outside = false;
+        for (int c = 0; c < 3; ++c) {
+            const glm::dvec3 edge = glm::cross(v[c], v[(c + 1) % 3]);
+            const auto side = [&](double px, double py) { return glm::dot(edge, ray_at(px, py)); };
+            const double here = side(x + 0.5, y + 0.5);
+            const double per_pixel = std::hypot(side(x + 1.5, y + 0.5) - here, side(x + 0.5, y + 1.5) - here);
+            is_near_edge = is_near_edge || std::abs(here) <= nearby * per_pixel;
+            is_outside = is_outside || here > nearby * per_pixel;
+        }
+        if (is_outside) continue;
+        const bool is_edge_on = std::abs(glm::dot(normal, ray)) < 1e-4 * glm::length(normal) * glm::length(ray);
+        if (is_near_edge || is_edge_on || std::abs(depth - 1) <= nearby * slope) seen.is_sure = false;
+        if (std::abs(depth - seen.nearest) < 1e-2 * depth) seen.is_sure = false;
+        if (depth > seen.nearest) seen = {depth, i / 3 + 1, seen.is_sure};
+    }
+    return seen;
+}
+
+struct Case {
+    const char* name;
+    double fov_degrees;
+    glm::dvec3 target;
+    int width, height;
+};
+
+class Soup : public testing::TestWithParam<Case> {};
+
+// Around the camera, large and small, across the near plane, behind it, slivers, degenerate, not finite.
+std::vector<glm::vec3> soup(unsigned seed) {
+    std::mt19937 bits(seed);
+    const auto uniform = [&] { return static_cast<float>(bits()) * 0x1p-31f - 1.0f; };
+    const auto point = [&](float size) { return size * glm::vec3(uniform(), uniform(), uniform()); };
+    std::vector<glm::vec3> corners;
+    for (int i = 0; i < 90; ++i) {
+        const float sizes[] = {0.3f, 3.0f, 50.0f, 20000.0f};
+        const glm::vec3 a = point(i % 2 ? 5.0f : 40.0f);
+        glm::vec3 b = a + point(sizes[i % 4]), c = a + point(sizes[i % 4]);
+        if (i % 9 == 0) c = glm::mix(a, b, 0.4f) + point(1e-3f);
+        if (i % 31 == 0) c = b;
+        if (i == 40) c.x = std::numeric_limits<float>::quiet_NaN();
+        if (i == 41) b.y = infinity;
+        if (i == 43) c.z = -infinity;
+        corners.insert(corners.end(), {a, b, c});
+    }
+    return corners;
+}
+
+TEST_P(Soup, IsWhatRaysSee) {
+    const Case& how = GetParam();
+    int sure = 0, pixels = 0;
+    for (unsigned seed = 1; seed <= 6; ++seed) {
+        std::vector<glm::vec3> corners = soup(seed);
+        scene::CameraPose pose{{0.1, 0.2, -0.3}, how.target, how.fov_degrees / 180 * std::numbers::pi};
+        const render::View view = render::make_view(pose, how.width, how.height);
+        render::native::Backdrop backdrop(mesh_of(corners), {}, plain_light());
+        const BackdropPicture picture = tests::paint(backdrop, view);
+        for (int y = 0; y < how.height; ++y)
+            for (int x = 0; x < how.width; ++x) {
+                ++pixels;
+                const Seen seen = look(view, corners, x, y);
+                if (!seen.is_sure) continue;
+                ++sure;
+                const std::uint32_t color = picture.color.row(y)[x];
+                if (seen.triangle == 0)
+                    EXPECT_EQ(picture.depth.row(y)[x], 0.0f) << x << ' ' << y << " seed " << seed;
+                else
+                    EXPECT_EQ(color & 255, 1 + (seen.triangle - 1) % 250) << x << ' ' << y << " seed " << seed;
+            }
+    }
+    EXPECT_GT(sure, pixels / 2) << "too few pixels say anything";
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Soup,
+                         testing::Values(Case{"ahead", 50, {0.3, 0.4, -9}, 160, 90},
+                                         Case{"up", 70, {0.1, 9, -0.3}, 61, 47},
+                                         Case{"down", 70, {0.1, -9, -0.3}, 61, 47},
+                                         Case{"wide", 170, {4, 1, 9}, 96, 64}, Case{"narrow", 1, {4, 1, 9}, 96, 64},
+                                         Case{"slit", 50, {1, 0, -2}, 1, 300}, Case{"row", 50, {1, 0, -2}, 300, 1},
+                                         Case{"pixel", 50, {0, 0, -2}, 1, 1}),
+                         [](const auto& one) { return one.param.name; });
+
+// Neighbours share their edges: every pixel of a fan around the axis of view is covered, and by no two.
+TEST(NativeBackdrop, NeighboursLeaveNoPixelOut) {
+    std::vector<glm::vec3> corners;
+    constexpr int count = 97;
+    for (int i = 0; i < count; ++i) {
+        const auto at = [](int k) {
+            const double turn = 2 * std::numbers::pi * (k % count) / count;
+            return glm::vec3(500 * std::cos(turn), 500 * std::sin(turn), -7);
+        };
+        corners.insert(corners.end(), {glm::vec3(0.013f, 0.021f, -7), at(i), at(i + 1)});
+    }
+    render::native::Backdrop backdrop(mesh_of(corners), {}, plain_light());
+    scene::CameraPose pose;
+    pose.target = {0, 0, -1};
+    const BackdropPicture picture = tests::paint(backdrop, render::make_view(pose, 700, 500));
+    for (int y = 0; y < 500; ++y)
+        for (int x = 0; x < 700; ++x) ASSERT_GT(picture.depth.row(y)[x], 0.0f) << x << ' ' << y;
+}
+
+TEST(NativeBackdrop, SurvivesWhatIsFartherThanAnyPlace) {
+    std::vector<glm::vec3> corners;
+    constexpr float far = std::numeric_limits<float>::max();
+    for (const glm::vec3 c : {glm::vec3(far, -far, 1), glm::vec3(1, far, -far), glm::vec3(-1e30f, 1e31f, -1e30f)})
+        corners.insert(corners.end(), {glm::vec3(-1, -1, -3), glm::vec3(1, -1, -3), c, c, glm::vec3(1, 1, 1), -c});
+    render::native::Backdrop backdrop(mesh_of(corners), {}, plain_light());
+    const BackdropPicture picture = tests::paint(backdrop, render::make_view({{0, 0, 0}, {0, 0, -1}}, 70, 50));
+    for (int y = 0; y < 50; ++y)
+        for (int x = 0; x < 70; ++x) EXPECT_TRUE(std::isfinite(picture.depth.row(y)[x]));
+}
+
+TEST(NativeBackdrop, TakesPicturesAsLargeAsItSays) {
+    Stadium stadium;
+    for (const auto& [width, height] : {std::pair(8192, 40), std::pair(24, 8192)}) {
+        const BackdropPicture picture =
+            tests::paint(stadium.backdrop, render::make_view(stadium.poses()[0], width, height));
+        EXPECT_EQ(picture.color.row(height - 1)[width - 1] >> 24, 255u);
+    }
+}
+
+TEST(NativeBackdrop, RefusesAGroundThatItHasNotGot) {
+    EXPECT_THROW(render::native::Backdrop(mesh_of({}), {"street.glsl", {}}, {}), std::runtime_error);
+}
+
+}  // namespace
