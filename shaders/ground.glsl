@@ -31,7 +31,10 @@ real line(vec2 edge, real half_width) {
     if (!somewhere(abs(edge.x) < w + pixel)) return 0.0f;
     return clamp((w - abs(edge.x)) / pixel + 0.5f, 0.0f, 1.0f) * half_width / w;
 }
-real inside(vec2 edge) { return clamp(0.5f - edge.x / edge.y, 0.0f, 1.0f); }
+real inside(vec2 edge) {
+    if (!somewhere(abs(edge.x) < edge.y)) return select(edge.x < 0.0f, 1.0f, 0.0f);
+    return clamp(0.5f - edge.x / edge.y, 0.0f, 1.0f);
+}
 
 // Of a line along a circle, and of all inside of one. Most pixels are too far from it for its distance to matter.
 real ring(vec2 p, real radius, real half_width) {
