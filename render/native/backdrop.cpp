@@ -192,6 +192,7 @@ void Backdrop::paint_cell(const Tile& tile, int cell_x, int cell_y, BackdropPict
         const std::uint32_t first = part.first_in_cell[number], last = part.first_in_cell[number + 1];
         rasterize(part.visible, std::span(part.in_cell).subspan(first, last - first), surface_offsets_[i], cell);
     }
+    find_farthest(cell);
     for (int row = cell.first_row; row <= cell.last_row; ++row)
         for (int column = cell.first_column; column <= cell.last_column; ++column) {
             shade(shading_, grounds_, cell, column, row);

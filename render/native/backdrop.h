@@ -33,8 +33,11 @@ public:
     void paint(const Tile& tile, BackdropPicture& out) const;
 
 private:
+    // So that threads that fill neighbouring parts do not wait for each other.
+    static constexpr std::size_t cache_lines = 128;
+
     // One surface of a sector, and what the aimed view sees of it.
-    struct Part {
+    struct alignas(cache_lines) Part {
         motion::Bounds box;
         Corners corners;
         std::vector<Triangle> triangles;

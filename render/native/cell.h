@@ -23,7 +23,8 @@ struct Cell {
     int first_row = 0, last_row = 0;
     alignas(64) std::array<float, std::size_t{tile_side} * tile_side> depth;
     alignas(64) std::array<std::uint32_t, std::size_t{tile_side} * tile_side> surface;
-    std::array<float, std::size_t{cell_blocks} * cell_blocks> farthest;  // of a block
+    std::array<float, std::size_t{cell_blocks} * cell_blocks> farthest;      // of a block; at least
+    std::array<std::uint8_t, std::size_t{cell_blocks} * cell_blocks> draws;  // since `farthest` was exact
 
     static std::size_t block(int column, int row) { return static_cast<std::size_t>(row) * cell_blocks + column; }
 };

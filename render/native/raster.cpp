@@ -98,6 +98,7 @@ void clear(Cell& cell, int width, int height) {
                 hn::Store(hn::Zero(du), du, surface + i);
             }
             cell.farthest[block] = 0;
+            cell.draws[block] = 0;
             if (right >= block_side && below >= block_side) continue;
             for (int i = 0; i < block_pixels; ++i)
                 if (i % block_side >= right || i / block_side >= below) {
@@ -168,6 +169,10 @@ HWY_INLINE void draw_block(const Setup& setup, const std::array<std::int32_t, 3>
             c = hn::Add(c, setup.step[2]);
         }
     }
+    // Too small a farthest depth hides less than it could, and looking costs as much as drawing.
+    constexpr int draws_before_a_look = 4;
+    if (!is_whole && ++cell.draws[block] < draws_before_a_look) return;
+    cell.draws[block] = 0;
     cell.farthest[block] = least_depth(depths);
 }
 
@@ -243,6 +248,14 @@ HWY_INLINE void draw(const ScreenTriangle& triangle, std::uint32_t surface_offse
     for (int row = reach.first_row; row <= reach.last_row; ++row) draw_row(triangle, setup, reach, row, cell);
 }
 
+void find_farthest(Cell& cell) {
+    for (int row = cell.first_row; row <= cell.last_row; ++row)
+        for (int column = cell.first_column; column <= cell.last_column; ++column) {
+            const std::size_t block = Cell::block(column, row);
+            if (cell.draws[block] > 0) cell.farthest[block] = least_depth(&cell.depth[block * block_pixels]);
+        }
+}
+
 void rasterize(std::span<const ScreenTriangle> triangles, std::span<const std::uint32_t> chosen,
                std::uint32_t surface_offset, Cell& cell) {
     for (const std::uint32_t i : chosen) draw(triangles[i], surface_offset, cell);
@@ -257,6 +270,11 @@ namespace render::native {
 HWY_EXPORT(clear);
 void clear(Cell& cell, int width, int height) {
     HWY_DYNAMIC_DISPATCH(clear)(cell, width, height);
+}
+
+HWY_EXPORT(find_farthest);
+void find_farthest(Cell& cell) {
+    HWY_DYNAMIC_DISPATCH(find_farthest)(cell);
 }
 
 HWY_EXPORT(rasterize);

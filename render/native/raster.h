@@ -18,4 +18,7 @@ void clear(Cell& cell, int width, int height);
 void rasterize(std::span<const ScreenTriangle> triangles, std::span<const std::uint32_t> chosen,
                std::uint32_t surface_offset, Cell& cell);
 
+// Makes the farthest depths of all blocks exact.
+void find_farthest(Cell& cell);
+
 }  // namespace render::native

@@ -195,14 +195,15 @@ void shade(const Shading& shading, std::span<const std::span<const ScreenTriangl
            int row) {
     std::uint32_t* surface = &cell.surface[Cell::block(column, row) * block_pixels];
     if (is_finished(surface)) return;
-    Unfinished unfinished = find_unfinished(surface);
+    const Unfinished unfinished = find_unfinished(surface);
     const Screen screen(shading, cell, column, row);
     if (unfinished.sky) shade_sky(shading, screen, surface);
-    for (; unfinished.ground != 0; unfinished = find_unfinished(surface)) {
+    for (std::uint32_t number = unfinished.ground; number != 0;
+         number = is_finished(surface) ? 0 : find_unfinished(surface).ground) {
         GroundPlaces at;
-        find_ground_places(shading, screen, triangle_of(grounds, unfinished.ground), cell.x0 + column * block_side,
+        find_ground_places(shading, screen, triangle_of(grounds, number), cell.x0 + column * block_side,
                            cell.y0 + row * block_side, at);
-        shade_ground<StadiumGround>(shading, at, unfinished.ground, surface);
+        shade_ground<StadiumGround>(shading, at, number, surface);
     }
 }
 
