@@ -41,8 +41,8 @@ struct CellBox {
 
     CellBox(const ScreenTriangle& triangle, int cells_across, int cells_down) {
         constexpr int half = subpixels / 2, side = subpixels * tile_side;
-        const auto [left, right] = std::minmax({triangle.x[0], triangle.x[1], triangle.x[2]});
-        const auto [top, bottom] = std::minmax({triangle.y[0], triangle.y[1], triangle.y[2]});
+        const auto [left, right] = std::minmax({triangle.x[0], triangle.x[1], triangle.x[2], triangle.x[3]});
+        const auto [top, bottom] = std::minmax({triangle.y[0], triangle.y[1], triangle.y[2], triangle.y[3]});
         x0 = std::max(left - half, 0) / side;
         y0 = std::max(top - half, 0) / side;
         x1 = std::min(std::max(right - half, 0) / side, cells_across - 1);
@@ -102,9 +102,9 @@ void Backdrop::add_parts(const scene::StaticMesh& structure, scene::Surface surf
         Corners corners(numbering.positions());
         ScreenCorners screen(corners.count);
         parts_.push_back(Part{sector.box,
+                              static_cast<std::int64_t>(triangles.size()),
                               std::move(corners),
-                              std::move(triangles),
-                              std::move(surfaces),
+                              make_faces(numbering.positions(), triangles, surfaces),
                               std::move(screen),
                               {},
                               {},
@@ -125,7 +125,7 @@ void Backdrop::aim(const View& view) {
         Part& part = parts_[in_view_[i]];
         project(view, part.corners, part.screen);
         part.visible.clear();
-        add_visible(view, part.corners, part.screen, part.triangles, part.surfaces, part.visible);
+        add_visible(view, part.corners, part.screen, part.faces, part.visible);
         if (in_view_[i] >= painted_parts_) number(part.visible);
         sort_into_cells(part);
     });
@@ -148,7 +148,7 @@ void Backdrop::choose_parts(const View& view) {
         Part& part = parts_[i];
         if (overlap(view, part.box) == Overlap::outside) continue;
         part.distance = glm::length(view.relative(part.box.center()));
-        triangles_ += static_cast<std::int64_t>(part.triangles.size());
+        triangles_ += part.triangles;
         in_view_.push_back(static_cast<std::uint32_t>(i));
     }
     std::sort(in_view_.begin(), in_view_.end(), [&](std::uint32_t a, std::uint32_t b) {

@@ -39,9 +39,9 @@ private:
     // One surface of a sector, and what the aimed view sees of it.
     struct alignas(cache_lines) Part {
         motion::Bounds box;
+        std::int64_t triangles;
         Corners corners;
-        std::vector<Triangle> triangles;
-        std::vector<std::uint32_t> surfaces;  // colours as pixels have them; of ground 0
+        std::vector<Face> faces;  // their surfaces: colours as pixels have them; of ground 0
 
         ScreenCorners screen;
         std::vector<ScreenTriangle> visible;

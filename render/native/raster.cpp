@@ -27,10 +27,15 @@ struct Edge {
     }
 };
 
-// False if no pixel of the cell is inside. An edge that all of them are inside of becomes 0 everywhere.
+// False if no pixel of the cell is inside. An edge that all of them are inside of, or that is none, becomes 0
+// everywhere.
 inline bool make_edge(const ScreenTriangle& triangle, int from, int to, const Cell& cell, Edge& out) {
     constexpr int half = subpixels / 2, shift = 8;
     const std::int64_t dx = triangle.x[to] - triangle.x[from], dy = triangle.y[to] - triangle.y[from];
+    if (dx == 0 && dy == 0) {
+        out = {};
+        return true;
+    }
     const std::int64_t x = std::int64_t{cell.x0} * subpixels + half - triangle.x[from];
     const std::int64_t y = std::int64_t{cell.y0} * subpixels + half - triangle.y[from];
     const bool is_upper_or_left = dy < 0 || (dy == 0 && dx > 0);
@@ -44,6 +49,13 @@ inline bool make_edge(const ScreenTriangle& triangle, int from, int to, const Ce
     return true;
 }
 
+inline constexpr int edge_count = 4;
+using EdgeValues = std::array<std::int32_t, edge_count>;
+
+inline bool is_negative_in_any(const EdgeValues& a, const EdgeValues& b) {
+    return ((a[0] + b[0]) | (a[1] + b[1]) | (a[2] + b[2]) | (a[3] + b[3])) < 0;
+}
+
 // The cell's blocks that a triangle may touch, inclusive, and rows of pixels in the cell.
 struct Reach {
     int first_column, last_column, first_row, last_row;
@@ -52,8 +64,8 @@ struct Reach {
 
 inline Reach reach_in(const ScreenTriangle& triangle, const Cell& cell) {
     constexpr int half = subpixels / 2, shift = 8, block_shift = 3;
-    const auto [left, right] = std::minmax({triangle.x[0], triangle.x[1], triangle.x[2]});
-    const auto [top, bottom] = std::minmax({triangle.y[0], triangle.y[1], triangle.y[2]});
+    const auto [left, right] = std::minmax({triangle.x[0], triangle.x[1], triangle.x[2], triangle.x[3]});
+    const auto [top, bottom] = std::minmax({triangle.y[0], triangle.y[1], triangle.y[2], triangle.y[3]});
     const int x0 = ((left + half - 1) >> shift) - cell.x0, x1 = ((right - half) >> shift) - cell.x0;
     const int y0 = ((top + half - 1) >> shift) - cell.y0, y1 = ((bottom - half) >> shift) - cell.y0;
     if (x0 > x1 || y0 > y1) return {1, 0, 1, 0, 1, 0};
@@ -110,10 +122,10 @@ void clear(Cell& cell, int width, int height) {
 
 // A triangle in a cell, with what every vector of it needs.
 struct Setup {
-    std::array<Edge, 3> edges;
-    std::array<hn::Vec<Ints>, 3> lane_values;       // what lanes' edges are beyond the first's
-    std::array<hn::Vec<Ints>, 3> step;              // to the next rows
-    std::array<std::int32_t, 3> to_most, to_least;  // of a block, beyond its first pixel
+    std::array<Edge, edge_count> edges;
+    std::array<hn::Vec<Ints>, edge_count> lane_values;  // what lanes' edges are beyond the first's
+    std::array<hn::Vec<Ints>, edge_count> step;         // to the next rows
+    EdgeValues to_most, to_least;                       // of a block, beyond its first pixel
     float depth_x, depth_y;
     std::uint32_t surface;
 };
@@ -134,8 +146,8 @@ HWY_INLINE float least_depth(const float* depth) {
 
 // at: the edges' values at the block's first pixel.
 template <bool is_whole>
-HWY_INLINE void draw_block(const Setup& setup, const std::array<std::int32_t, 3>& at, float block_depth, int first_row,
-                           int last_row, std::size_t block, Cell& cell) {
+HWY_INLINE void draw_block(const Setup& setup, const EdgeValues& at, float block_depth, int first_row, int last_row,
+                           std::size_t block, Cell& cell) {
     const Floats d;
     const Ints di;
     const Words du;
@@ -152,14 +164,14 @@ HWY_INLINE void draw_block(const Setup& setup, const std::array<std::int32_t, 3>
             const Edge& edge = setup.edges[i];
             return hn::Add(hn::Set(di, at[i] + row0 * edge.step_y + column * edge.step_x), setup.lane_values[i]);
         };
-        auto a = first(0), b = first(1), c = first(2);
+        auto a = first(0), b = first(1), c = first(2), e = first(3);
         for (int row = row0; row <= last_row; row += rows) {
             const int pixel = row * block_side + column;
             const auto depth = hn::Add(hn::Add(start, hn::Mul(slope_y, y)), along_x);
             const auto before = hn::Load(d, depths + pixel);
             auto wins = hn::Gt(depth, before);
             if constexpr (!is_whole)
-                wins = hn::And(wins, hn::RebindMask(d, hn::Gt(hn::Or(hn::Or(a, b), c), hn::Set(di, -1))));
+                wins = hn::And(wins, hn::RebindMask(d, hn::Gt(hn::Or(hn::Or(a, b), hn::Or(c, e)), hn::Set(di, -1))));
             hn::Store(hn::IfThenElse(wins, depth, before), d, depths + pixel);
             const auto old = hn::Load(du, surfaces + pixel);
             hn::Store(hn::IfThenElse(hn::RebindMask(du, wins), surface, old), du, surfaces + pixel);
@@ -167,6 +179,7 @@ HWY_INLINE void draw_block(const Setup& setup, const std::array<std::int32_t, 3>
             a = hn::Add(a, setup.step[0]);
             b = hn::Add(b, setup.step[1]);
             c = hn::Add(c, setup.step[2]);
+            e = hn::Add(e, setup.step[3]);
         }
     }
     // Too small a farthest depth hides less than it could, and looking costs as much as drawing.
@@ -184,12 +197,12 @@ HWY_INLINE bool is_hidden(const ScreenTriangle& triangle, const Reach& reach, co
 }
 
 HWY_INLINE bool set_up(const ScreenTriangle& triangle, std::uint32_t surface_offset, const Cell& cell, Setup& out) {
-    for (int i = 0; i < 3; ++i)
-        if (!make_edge(triangle, i, (i + 1) % 3, cell, out.edges[i])) return false;
+    for (int i = 0; i < edge_count; ++i)
+        if (!make_edge(triangle, i, (i + 1) % edge_count, cell, out.edges[i])) return false;
     const Ints di;
     const auto column = hn::ConvertTo(di, hn::Load(Floats(), lane_column));
     const auto row = hn::ConvertTo(di, hn::Load(Floats(), lane_row));
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < edge_count; ++i) {
         const Edge& edge = out.edges[i];
         out.lane_values[i] = hn::Add(hn::Mul(column, hn::Set(di, edge.step_x)), hn::Mul(row, hn::Set(di, edge.step_y)));
         out.step[i] = hn::Set(di, rows * edge.step_y);
@@ -203,9 +216,9 @@ HWY_INLINE bool set_up(const ScreenTriangle& triangle, std::uint32_t surface_off
 }
 
 // How many blocks to the right the edges let through first, and none of those before; cell_blocks if there is none.
-HWY_INLINE int blocks_to_skip(const Setup& setup, const std::array<std::int32_t, 3>& at) {
+HWY_INLINE int blocks_to_skip(const Setup& setup, const EdgeValues& at) {
     int skip = 0;
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < edge_count; ++i) {
         const std::int32_t value = at[i] + setup.to_most[i], step = block_side * setup.edges[i].step_x;
         if (value >= 0) continue;
         if (step <= 0) return cell_blocks;
@@ -216,25 +229,25 @@ HWY_INLINE int blocks_to_skip(const Setup& setup, const std::array<std::int32_t,
 
 // The row's blocks that the edges let through are neighbours: the loop ends behind the last.
 HWY_INLINE void draw_row(const ScreenTriangle& triangle, const Setup& setup, const Reach& reach, int row, Cell& cell) {
-    std::array<std::int32_t, 3> at;
-    for (int i = 0; i < 3; ++i) {
+    EdgeValues at;
+    for (int i = 0; i < edge_count; ++i) {
         const Edge& edge = setup.edges[i];
         at[i] = edge.value + block_side * (reach.first_column * edge.step_x + row * edge.step_y);
     }
     const int skip = blocks_to_skip(setup, at);
     if (reach.first_column + skip > reach.last_column) return;
-    for (int i = 0; i < 3; ++i) at[i] += skip * block_side * setup.edges[i].step_x;
+    for (int i = 0; i < edge_count; ++i) at[i] += skip * block_side * setup.edges[i].step_x;
     const int first = std::max(reach.first_pixel_row - row * block_side, 0);
     const int last = std::min(reach.last_pixel_row - row * block_side, block_side - 1);
     const double row_depth = triangle.depth + triangle.depth_y * (cell.y0 + row * block_side);
     for (int column = reach.first_column + skip; column <= reach.last_column; ++column) {
-        const std::array<std::int32_t, 3> here = at;
-        if (((here[0] + setup.to_most[0]) | (here[1] + setup.to_most[1]) | (here[2] + setup.to_most[2])) < 0) return;
-        for (int i = 0; i < 3; ++i) at[i] += block_side * setup.edges[i].step_x;
+        const EdgeValues here = at;
+        if (is_negative_in_any(here, setup.to_most)) return;
+        for (int i = 0; i < edge_count; ++i) at[i] += block_side * setup.edges[i].step_x;
         const std::size_t block = Cell::block(column, row);
         const auto depth = static_cast<float>(row_depth + triangle.depth_x * (cell.x0 + column * block_side));
         if (!is_in_front(setup, depth, cell.farthest[block])) continue;
-        if (((here[0] + setup.to_least[0]) | (here[1] + setup.to_least[1]) | (here[2] + setup.to_least[2])) >= 0)
+        if (!is_negative_in_any(here, setup.to_least))
             draw_block<true>(setup, here, depth, 0, block_side - 1, block, cell);
         else
             draw_block<false>(setup, here, depth, first, last, block, cell);

@@ -62,6 +62,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace render::native {
 
@@ -85,23 +86,56 @@ bool holds_a_center(std::int32_t low, std::int32_t high, std::int32_t picture_en
     return first <= last;
 }
 
+// Twice the area on the screen: positive of what faces the camera, which is counter-clockwise where y is up.
+std::int64_t facing_area(const ScreenCorner& a, const ScreenCorner& b, const ScreenCorner& c) {
+    return std::int64_t{c.x - a.x} * (b.y - a.y) - std::int64_t{c.y - a.y} * (b.x - a.x);
+}
+
+// What depth is in the plane of three corners: at the centre of pixel (0, 0), and by how much it grows.
+struct DepthPlane {
+    double depth, along_x, along_y;
+
+    DepthPlane(const ScreenCorner& a, const ScreenCorner& b, const ScreenCorner& c, std::int64_t area) {
+        const double per_area = subpixels / static_cast<double>(area);
+        const double to_b = static_cast<double>(b.depth) - a.depth, to_c = static_cast<double>(c.depth) - a.depth;
+        along_x = (to_c * (b.y - a.y) - to_b * (c.y - a.y)) * per_area;
+        along_y = (to_b * (c.x - a.x) - to_c * (b.x - a.x)) * per_area;
+        constexpr double pixel = 1.0 / subpixels;
+        depth = a.depth + along_x * (0.5 - pixel * a.x) + along_y * (0.5 - pixel * a.y);
+    }
+};
+
+void add(const View& view, const std::array<ScreenCorner, 4>& clockwise, const DepthPlane& plane, std::uint32_t surface,
+         std::vector<ScreenTriangle>& out) {
+    const auto& [a, b, c, d] = clockwise;
+    const auto [left, right] = std::minmax({a.x, b.x, c.x, d.x});
+    const auto [top, bottom] = std::minmax({a.y, b.y, c.y, d.y});
+    if (!holds_a_center(left, right, view.width) || !holds_a_center(top, bottom, view.height)) return;
+    out.push_back({{a.x, b.x, c.x, d.x},
+                   {a.y, b.y, c.y, d.y},
+                   surface,
+                   std::max({a.depth, b.depth, c.depth, d.depth}),
+                   plane.depth,
+                   plane.along_x,
+                   plane.along_y});
+}
+
 void add_if_seen(const View& view, const ScreenCorner& a, const ScreenCorner& b, const ScreenCorner& c,
                  std::uint32_t surface, std::vector<ScreenTriangle>& out) {
-    // From b to c turns about a: what faces the camera is counter-clockwise where y is up, so the two change places.
-    const std::int64_t abx = c.x - a.x, aby = c.y - a.y, acx = b.x - a.x, acy = b.y - a.y;
-    const std::int64_t area = abx * acy - aby * acx;
-    if (area <= 0) return;
-    const auto [left, right] = std::minmax({a.x, b.x, c.x});
-    const auto [top, bottom] = std::minmax({a.y, b.y, c.y});
-    if (!holds_a_center(left, right, view.width) || !holds_a_center(top, bottom, view.height)) return;
-    const double per_area = subpixels / static_cast<double>(area);
-    const double to_c = static_cast<double>(c.depth) - a.depth, to_b = static_cast<double>(b.depth) - a.depth;
-    const double depth_x = (to_c * static_cast<double>(acy) - to_b * static_cast<double>(aby)) * per_area;
-    const double depth_y = (to_b * static_cast<double>(abx) - to_c * static_cast<double>(acx)) * per_area;
-    constexpr double pixel = 1.0 / subpixels;
-    const double depth = a.depth + depth_x * (0.5 - pixel * a.x) + depth_y * (0.5 - pixel * a.y);
-    out.push_back(
-        {{a.x, c.x, b.x}, {a.y, c.y, b.y}, surface, std::max({a.depth, b.depth, c.depth}), depth, depth_x, depth_y});
+    const std::int64_t area = facing_area(a, b, c);
+    if (area > 0) add(view, {a, c, b, b}, DepthPlane(a, b, c, area), surface, out);
+}
+
+// Rounding may have dented it: then it is two triangles.
+void add_if_seen(const View& view, const ScreenCorner& a, const ScreenCorner& b, const ScreenCorner& c,
+                 const ScreenCorner& d, std::uint32_t surface, std::vector<ScreenTriangle>& out) {
+    const std::int64_t abc = facing_area(a, b, c), acd = facing_area(a, c, d);
+    if (std::min({abc, acd, facing_area(b, c, d), facing_area(d, a, b)}) <= 0) {
+        add_if_seen(view, a, b, c, surface, out);
+        add_if_seen(view, a, c, d, surface, out);
+        return;
+    }
+    add(view, {a, d, c, b}, abc >= acd ? DepthPlane(a, b, c, abc) : DepthPlane(a, c, d, acd), surface, out);
 }
 
 // A corner while it is clipped: in clip space, and on the screen as soon as that is known.
@@ -187,6 +221,21 @@ void add_clipped(const View& view, const Corners& corners, const ScreenCorners& 
     }
 }
 
+// {a, b, c} and {a, c, d} as one, whichever corners they begin with; nothing if they are not that.
+std::optional<Face> joined(const std::vector<glm::vec3>& positions, const Triangle& first, const Triangle& second,
+                           std::uint32_t surface) {
+    constexpr float flat = 1e-3f;  // [m] off the plane
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) {
+            const std::uint32_t a = first[i], b = first[(i + 1) % 3], c = first[(i + 2) % 3], d = second[(j + 2) % 3];
+            if (second[j] != a || second[(j + 1) % 3] != c || d == c) continue;
+            const glm::vec3 normal = glm::cross(positions[b] - positions[a], positions[c] - positions[a]);
+            const float distance = std::abs(glm::dot(normal, positions[d] - positions[a]));
+            if (distance <= flat * glm::length(normal)) return Face{{a, b, c, d}, surface};
+        }
+    return std::nullopt;
+}
+
 }  // namespace
 
 Corners::Corners(const std::vector<glm::vec3>& positions)
@@ -213,18 +262,35 @@ void project(const View& view, const Corners& corners, ScreenCorners& out) {
     HWY_DYNAMIC_DISPATCH(project)(view, corners, out);
 }
 
-void add_visible(const View& view, const Corners& corners, const ScreenCorners& screen,
-                 const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& surfaces,
-                 std::vector<ScreenTriangle>& out) {
-    const auto corner = [&](std::uint32_t i) { return ScreenCorner{screen.x[i], screen.y[i], screen.depth[i]}; };
+std::vector<Face> make_faces(const std::vector<glm::vec3>& positions, const std::vector<Triangle>& triangles,
+                             const std::vector<std::uint32_t>& surfaces) {
+    std::vector<Face> faces;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const auto [a, b, c] = triangles[i];
-        const std::int32_t sa = screen.sides[a], sb = screen.sides[b], sc = screen.sides[c];
-        if ((sa & sb & sc & ~clipped) != 0) continue;
-        if (((sa | sb | sc) & clipped) == 0)
-            add_if_seen(view, corner(a), corner(b), corner(c), surfaces[i], out);
-        else
-            add_clipped(view, corners, screen, triangles[i], surfaces[i], out);
+        std::optional<Face> two;
+        if (i + 1 < triangles.size() && surfaces[i] == surfaces[i + 1])
+            two = joined(positions, triangles[i], triangles[i + 1], surfaces[i]);
+        faces.push_back(two.value_or(Face{{a, b, c, c}, surfaces[i]}));
+        if (two) ++i;
+    }
+    return faces;
+}
+
+void add_visible(const View& view, const Corners& corners, const ScreenCorners& screen, const std::vector<Face>& faces,
+                 std::vector<ScreenTriangle>& out) {
+    const auto corner = [&](std::uint32_t i) { return ScreenCorner{screen.x[i], screen.y[i], screen.depth[i]}; };
+    for (const Face& face : faces) {
+        const auto [a, b, c, d] = face.corners;
+        const std::int32_t sa = screen.sides[a], sb = screen.sides[b], sc = screen.sides[c], sd = screen.sides[d];
+        if ((sa & sb & sc & sd & ~clipped) != 0) continue;
+        if (((sa | sb | sc | sd) & clipped) != 0) {
+            add_clipped(view, corners, screen, {a, b, c}, face.surface, out);
+            if (!face.is_triangle()) add_clipped(view, corners, screen, {a, c, d}, face.surface, out);
+        } else if (face.is_triangle()) {
+            add_if_seen(view, corner(a), corner(b), corner(c), face.surface, out);
+        } else {
+            add_if_seen(view, corner(a), corner(b), corner(c), corner(d), face.surface, out);
+        }
     }
 }
 

@@ -17,10 +17,10 @@ inline constexpr int subpixels = 256;         // in a pixel, along x and y
 inline constexpr int largest_picture = 8192;  // [px] either side
 inline constexpr int guard_band = 4096;       // [px] around the picture: what reaches farther out is clipped
 
-// Clockwise on the screen, x to the right and y down; no two corners are farther apart than 2^22 subpixels. Where it is
-// seen, its depth is linear in the pixel.
+// A triangle, whose last corner is there twice, or a flat convex quadrilateral. Clockwise on the screen, x to the right
+// and y down; no two corners are farther apart than 2^22 subpixels. Where it is seen, its depth is linear in the pixel.
 struct ScreenTriangle {
-    std::array<std::int32_t, 3> x, y;  // [1/256 px] from the picture's top left corner
+    std::array<std::int32_t, 4> x, y;  // [1/256 px] from the picture's top left corner
     std::uint32_t surface;
     float nearest;                   // the greatest depth of its corners
     double depth, depth_x, depth_y;  // reversed depth at the centre of pixel (0, 0), and what it grows by along x and y
@@ -51,10 +51,22 @@ void project(const View& view, const Corners& corners, ScreenCorners& out);
 
 using Triangle = std::array<std::uint32_t, 3>;  // indices of corners, counter-clockwise seen from outside
 
-// Appends to `out` what faces the camera and may cover a pixel's centre, in the order of `triangles`; of clipped ones
-// the rest, in several triangles. surface(i) is what triangle i is given.
-void add_visible(const View& view, const Corners& corners, const ScreenCorners& screen,
-                 const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& surfaces,
+// One or two triangles of one surface. Two of them, {a, b, c} and {a, c, d}, are drawn as one where the view allows it,
+// which covers the same pixels: most of what people build is rectangles, and their blocks are then drawn into once.
+struct Face {
+    std::array<std::uint32_t, 4> corners;  // of one triangle, the last is there twice
+    std::uint32_t surface;
+
+    bool is_triangle() const { return corners[2] == corners[3]; }
+};
+
+// The triangles in their order. Neighbours in it become one if they share their surface and plane.
+std::vector<Face> make_faces(const std::vector<glm::vec3>& positions, const std::vector<Triangle>& triangles,
+                             const std::vector<std::uint32_t>& surfaces);
+
+// Appends to `out` what faces the camera and may cover a pixel's centre, in the order of `faces`; of clipped ones the
+// rest, in several triangles.
+void add_visible(const View& view, const Corners& corners, const ScreenCorners& screen, const std::vector<Face>& faces,
                  std::vector<ScreenTriangle>& out);
 
 }  // namespace render::native
