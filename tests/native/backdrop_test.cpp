@@ -246,6 +246,37 @@ INSTANTIATE_TEST_SUITE_P(Of, Soup,
                                          Case{"pixel", 50, {0, 0, -2}, 1, 1}),
                          [](const auto& one) { return one.param.name; });
 
+// Rectangles of two triangles each; `apart`: of two colours each, so that they are drawn as two.
+scene::StaticMesh rectangles(unsigned seed, bool apart) {
+    std::mt19937 bits(seed);
+    const auto uniform = [&] { return static_cast<float>(bits()) * 0x1p-31f - 1.0f; };
+    const auto point = [&](float size) { return size * glm::vec3(uniform(), uniform(), uniform()); };
+    std::vector<glm::vec3> corners;
+    for (int i = 0; i < 200; ++i) {
+        const glm::vec3 a = point(30), b = point(6), d = glm::cross(b, point(i % 2 ? 0.02f : 1));
+        corners.insert(corners.end(), {a, a + b, a + b + d, a, a + b + d, a + d});
+    }
+    scene::StaticMesh mesh = mesh_of(corners);
+    for (std::size_t i = 0; i < corners.size(); ++i)
+        mesh.vertices[i].color = glm::u8vec4(static_cast<std::uint8_t>(1 + i / 6), 0, apart && i % 6 > 2 ? 0 : 255, 0);
+    return mesh;
+}
+
+TEST(NativeBackdrop, TwoTrianglesAsOneCoverTheSamePixels) {
+    constexpr int width = 300, height = 200;
+    for (unsigned seed = 1; seed <= 8; ++seed) {
+        scene::CameraPose pose;
+        pose.target = {seed % 3 - 1.0, 0.1 * seed, 1};
+        const render::View view = render::make_view(pose, width, height);
+        render::native::Backdrop one(rectangles(seed, false), {}, plain_light());
+        render::native::Backdrop two(rectangles(seed, true), {}, plain_light());
+        const BackdropPicture joined = tests::paint(one, view), apart = tests::paint(two, view);
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                EXPECT_EQ(joined.color.row(y)[x] & 255, apart.color.row(y)[x] & 255) << x << ' ' << y;
+    }
+}
+
 // Neighbours share their edges: every pixel of a fan around the axis of view is covered, and by no two.
 TEST(NativeBackdrop, NeighboursLeaveNoPixelOut) {
     std::vector<glm::vec3> corners;
