@@ -104,7 +104,7 @@ void Backdrop::add_parts(const scene::StaticMesh& structure, scene::Surface surf
         parts_.push_back(Part{sector.box,
                               static_cast<std::int64_t>(triangles.size()),
                               std::move(corners),
-                              make_faces(numbering.positions(), triangles, surfaces),
+                              make_panels(numbering.positions(), triangles, surfaces),
                               std::move(screen),
                               {},
                               {},
@@ -125,7 +125,7 @@ void Backdrop::aim(const View& view) {
         Part& part = parts_[in_view_[i]];
         project(view, part.corners, part.screen);
         part.visible.clear();
-        add_visible(view, part.corners, part.screen, part.faces, part.visible);
+        add_visible(view, part.corners, part.screen, part.panels, part.visible);
         if (in_view_[i] >= painted_parts_) number(part.visible);
         sort_into_cells(part);
     });

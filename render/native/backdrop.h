@@ -41,7 +41,7 @@ private:
         motion::Bounds box;
         std::int64_t triangles;
         Corners corners;
-        std::vector<Face> faces;  // their surfaces: colours as pixels have them; of ground 0
+        std::vector<Panel> panels;  // their surfaces: colours as pixels have them; of ground 0
 
         ScreenCorners screen;
         std::vector<ScreenTriangle> visible;

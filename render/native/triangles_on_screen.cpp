@@ -222,7 +222,7 @@ void add_clipped(const View& view, const Corners& corners, const ScreenCorners& 
 }
 
 // {a, b, c} and {a, c, d} as one, whichever corners they begin with; nothing if they are not that.
-std::optional<Face> joined(const std::vector<glm::vec3>& positions, const Triangle& first, const Triangle& second,
+std::optional<Panel> joined(const std::vector<glm::vec3>& positions, const Triangle& first, const Triangle& second,
                            std::uint32_t surface) {
     constexpr float flat = 1e-3f;  // [m] off the plane
     for (int i = 0; i < 3; ++i)
@@ -231,7 +231,7 @@ std::optional<Face> joined(const std::vector<glm::vec3>& positions, const Triang
             if (second[j] != a || second[(j + 1) % 3] != c || d == c) continue;
             const glm::vec3 normal = glm::cross(positions[b] - positions[a], positions[c] - positions[a]);
             const float distance = std::abs(glm::dot(normal, positions[d] - positions[a]));
-            if (distance <= flat * glm::length(normal)) return Face{{a, b, c, d}, surface};
+            if (distance <= flat * glm::length(normal)) return Panel{{a, b, c, d}, surface};
         }
     return std::nullopt;
 }
@@ -262,34 +262,34 @@ void project(const View& view, const Corners& corners, ScreenCorners& out) {
     HWY_DYNAMIC_DISPATCH(project)(view, corners, out);
 }
 
-std::vector<Face> make_faces(const std::vector<glm::vec3>& positions, const std::vector<Triangle>& triangles,
+std::vector<Panel> make_panels(const std::vector<glm::vec3>& positions, const std::vector<Triangle>& triangles,
                              const std::vector<std::uint32_t>& surfaces) {
-    std::vector<Face> faces;
+    std::vector<Panel> panels;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const auto [a, b, c] = triangles[i];
-        std::optional<Face> two;
+        std::optional<Panel> two;
         if (i + 1 < triangles.size() && surfaces[i] == surfaces[i + 1])
             two = joined(positions, triangles[i], triangles[i + 1], surfaces[i]);
-        faces.push_back(two.value_or(Face{{a, b, c, c}, surfaces[i]}));
+        panels.push_back(two.value_or(Panel{{a, b, c, c}, surfaces[i]}));
         if (two) ++i;
     }
-    return faces;
+    return panels;
 }
 
-void add_visible(const View& view, const Corners& corners, const ScreenCorners& screen, const std::vector<Face>& faces,
+void add_visible(const View& view, const Corners& corners, const ScreenCorners& screen, const std::vector<Panel>& panels,
                  std::vector<ScreenTriangle>& out) {
     const auto corner = [&](std::uint32_t i) { return ScreenCorner{screen.x[i], screen.y[i], screen.depth[i]}; };
-    for (const Face& face : faces) {
-        const auto [a, b, c, d] = face.corners;
+    for (const Panel& panel : panels) {
+        const auto [a, b, c, d] = panel.corners;
         const std::int32_t sa = screen.sides[a], sb = screen.sides[b], sc = screen.sides[c], sd = screen.sides[d];
         if ((sa & sb & sc & sd & ~clipped) != 0) continue;
         if (((sa | sb | sc | sd) & clipped) != 0) {
-            add_clipped(view, corners, screen, {a, b, c}, face.surface, out);
-            if (!face.is_triangle()) add_clipped(view, corners, screen, {a, c, d}, face.surface, out);
-        } else if (face.is_triangle()) {
-            add_if_seen(view, corner(a), corner(b), corner(c), face.surface, out);
+            add_clipped(view, corners, screen, {a, b, c}, panel.surface, out);
+            if (!panel.is_triangle()) add_clipped(view, corners, screen, {a, c, d}, panel.surface, out);
+        } else if (panel.is_triangle()) {
+            add_if_seen(view, corner(a), corner(b), corner(c), panel.surface, out);
         } else {
-            add_if_seen(view, corner(a), corner(b), corner(c), corner(d), face.surface, out);
+            add_if_seen(view, corner(a), corner(b), corner(c), corner(d), panel.surface, out);
         }
     }
 }

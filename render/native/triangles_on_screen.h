@@ -53,7 +53,7 @@ using Triangle = std::array<std::uint32_t, 3>;  // indices of corners, counter-c
 
 // One or two triangles of one surface. Two of them, {a, b, c} and {a, c, d}, are drawn as one where the view allows it,
 // which covers the same pixels: most of what people build is rectangles, and their blocks are then drawn into once.
-struct Face {
+struct Panel {
     std::array<std::uint32_t, 4> corners;  // of one triangle, the last is there twice
     std::uint32_t surface;
 
@@ -61,12 +61,12 @@ struct Face {
 };
 
 // The triangles in their order. Neighbours in it become one if they share their surface and plane.
-std::vector<Face> make_faces(const std::vector<glm::vec3>& positions, const std::vector<Triangle>& triangles,
+std::vector<Panel> make_panels(const std::vector<glm::vec3>& positions, const std::vector<Triangle>& triangles,
                              const std::vector<std::uint32_t>& surfaces);
 
-// Appends to `out` what faces the camera and may cover a pixel's centre, in the order of `faces`; of clipped ones the
+// Appends to `out` what faces the camera and may cover a pixel's centre, in the order of `panels`; of clipped ones the
 // rest, in several triangles.
-void add_visible(const View& view, const Corners& corners, const ScreenCorners& screen, const std::vector<Face>& faces,
+void add_visible(const View& view, const Corners& corners, const ScreenCorners& screen, const std::vector<Panel>& panels,
                  std::vector<ScreenTriangle>& out);
 
 }  // namespace render::native
