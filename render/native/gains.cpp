@@ -1,7 +1,9 @@
 #include "render/native/gains.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 namespace render::native {
 
@@ -35,10 +37,14 @@ struct Between {
     float share;
 };
 
+// The bits of a positive float are its logarithm to the base 2, a straight line in each octave.
 Between among_octaves(float value, float first, int count) {
-    const float octave = std::clamp(std::log2(value / first), 0.0f, static_cast<float>(count - 1) - 1e-4f);
-    const int below = static_cast<int>(octave);
-    return {below, octave - static_cast<float>(below)};
+    constexpr int mantissa_bits = 23;
+    const auto bits = static_cast<std::int32_t>(std::bit_cast<std::uint32_t>(value)) -
+                      static_cast<std::int32_t>(std::bit_cast<std::uint32_t>(first));
+    const std::int32_t clamped = std::clamp(bits, 0, ((count - 1) << mantissa_bits) - 1);
+    const int below = clamped >> mantissa_bits;
+    return {below, static_cast<float>(clamped - (below << mantissa_bits)) / (1 << mantissa_bits)};
 }
 
 }  // namespace

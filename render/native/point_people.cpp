@@ -1,5 +1,6 @@
 #include "render/native/point_people.h"
 
+#include <hwy/cache_control.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -13,8 +14,6 @@ namespace {
 constexpr float unit = 32767.0f;
 // Normals are stored as 127 = 1 and read as 32512 = 1.
 constexpr float normal_unit = 32767.0f / 32512.0f;
-// Sums over so few points depend on which they are: they are made to cover what the silhouette does, one by one.
-constexpr std::uint32_t longest_summed_prefix = 128;
 
 // To the nearest; the offset keeps what is cut off positive.
 std::int16_t fixed(float value, float one = unit) {
@@ -63,6 +62,15 @@ Rect SplatPerson::bounds() const {
     const auto first = [this](std::int16_t at) { return static_cast<int>(std::floor(static_cast<float>(at) * cell)); };
     const auto end = [this](std::int16_t at) { return static_cast<int>(std::ceil(static_cast<float>(at) * cell)); };
     return {first(x0), first(y0), end(x1), end(y1)};
+}
+
+void SplatPerson::prefetch() const {
+    for (const std::uint32_t* bits : visible) hwy::Prefetch(bits);
+    for (int i = 0; i < 3; ++i) hwy::Prefetch(positions + i * chunk_points);
+    hwy::Prefetch(normals);
+    hwy::Prefetch(normals + 2 * chunk_points);
+    hwy::Prefetch(facets);
+    hwy::Prefetch(facets + 2 * chunk_points);
 }
 
 void PointPeople::make_kind(std::uint32_t character) {
@@ -208,7 +216,7 @@ SplatPerson PointPeople::ready(const View& view, const Person& person, float cel
     const float cells = cells_per_unit * cells_per_unit * glm::length(middle) / out.depth;
     out.silhouette = silhouette * cells;
     const float gain = kinds_[person.character]->gains.at(out.silhouette, samples);
-    out.total = person.count <= longest_summed_prefix ? gain * out.silhouette : 0.0f;
+    out.total = out.count <= longest_summed_prefix ? gain * out.silhouette : 0.0f;
     const float covers = summed > 0.0f ? interpolated / summed : 1.0f;
     out.area_each = gain * covers * model.area() * cells / samples;
 

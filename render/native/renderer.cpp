@@ -131,7 +131,11 @@ void Renderer::draw_tile(std::size_t index) {
             draw_point_person(points_.people()[i], easel, Layers::behind_near);
         others = others.subspan(mixed);
     }
-    for (const std::uint32_t i : others) draw_point_person(points_.people()[i], easel, Layers::all);
+    for (std::size_t i = 0; i < others.size(); ++i) {
+        constexpr std::size_t ahead = 2;
+        if (i + ahead < others.size()) points_.people()[others[i + ahead]].prefetch();
+        draw_point_person(points_.people()[others[i]], easel, Layers::all);
+    }
     easel.cover.resolve(picture_);
 }
 

@@ -38,7 +38,7 @@ void load_directions(const std::int8_t* from, Vector* direction) {
 }
 
 // How much of each point is seen from the eye, were it to face it.
-Vector seen(const SplatPerson& person, int chunk, int lane) {
+HWY_INLINE Vector seen(const SplatPerson& person, int chunk, int lane) {
     Vector sum = hn::Zero(lanes);
     for (int i = 0; i < 4; ++i) {
         const auto* bits = reinterpret_cast<const std::uint8_t*>(person.visible[i] + chunk) + lane / 8;
@@ -48,7 +48,7 @@ Vector seen(const SplatPerson& person, int chunk, int lane) {
 }
 
 // What each point shows of its area; a quarter of it, as facets and shares go up to 2.
-Vector shown(const SplatPerson& person, int chunk, int lane) {
+HWY_INLINE Vector shown(const SplatPerson& person, int chunk, int lane) {
     Vector facet[3];
     load_directions(person.facets + chunk * 3 * chunk_points + lane, facet);
     const Vector facing = dot(facet, person.to_eye);
@@ -66,13 +66,19 @@ Vector shown(const SplatPerson& person, int chunk, int lane) {
 
 int chunks_of(const SplatPerson& person) { return (person.count + chunk_points - 1) / chunk_points; }
 
+// Of short prefixes, what each point shows is needed twice: to sum it up, and to draw it.
+struct Parts {
+    alignas(64) std::int16_t of[longest_summed_prefix];
+};
+
 // What all points show together, in quarters of areas of one.
-float sum_shown(const SplatPerson& person) {
+float sum_shown(const SplatPerson& person, Parts& parts) {
     const hn::RepartitionToWide<Lanes> wide;
     auto sum = hn::Zero(wide);
     for (int chunk = 0; chunk < chunks_of(person); ++chunk) {
         for (int lane = 0; lane < chunk_points; lane += static_cast<int>(hn::Lanes(lanes))) {
             const Vector part = shown(person, chunk, lane);
+            hn::Store(part, lanes, parts.of + chunk * chunk_points + lane);
             sum = hn::Add(sum, hn::Add(hn::PromoteTo(wide, hn::LowerHalf(part)),
                                        hn::PromoteTo(wide, hn::UpperHalf(hn::Half<Lanes>(), part))));
         }
@@ -80,10 +86,10 @@ float sum_shown(const SplatPerson& person) {
     return static_cast<float>(hn::GetLane(hn::SumOfLanes(wide, sum))) / 32767.0f;
 }
 
-std::int16_t area_of(const SplatPerson& person) {
+std::int16_t area_of(const SplatPerson& person, Parts& parts) {
     float each = 4.0f * person.area_each;
     if (person.total > 0.0f) {
-        const float sum = sum_shown(person);
+        const float sum = sum_shown(person, parts);
         each = sum > 0.0f ? person.total / sum : 0.0f;
     }
     constexpr float most = 32767.0f;
@@ -121,12 +127,14 @@ struct Place {
 };
 
 void stage(const SplatPerson& person, const SplatLight& light, const Patch& patch, Place place, std::int16_t area,
-           int chunk, int lane, Staged& out) {
+           const Parts* parts, int chunk, int lane, Staged& out) {
     const std::int16_t* from = person.positions + chunk * 3 * chunk_points + lane;
     Vector position[3];
     for (int axis = 0; axis < 3; ++axis) position[axis] = hn::Load(lanes, from + axis * chunk_points);
 
-    const Vector cover = times(shown(person, chunk, lane), all(area));
+    const Vector part =
+        parts ? hn::Load(lanes, parts->of + chunk * chunk_points + lane) : shown(person, chunk, lane);
+    const Vector cover = times(part, all(area));
     const Vector back = dot(position, person.axes[2]);
     // 1 / (1 + t) - 1 = -t + t^2 - t^3 ...: what is farther back is smaller.
     const Vector t = times(back, all(person.nearness));
@@ -208,7 +216,8 @@ void add(const Staged& staged, const Patch& patch, int i) {
 }  // namespace
 
 void Splat(const SplatPerson& person, const SplatLight& light, const Patch& patch) {
-    const std::int16_t area = area_of(person);
+    Parts parts;
+    const std::int16_t area = area_of(person, parts);
     if (area == 0) return;
     // From the middle of the patch's first cell, where all of a point would go.
     const auto place_of = [](std::int32_t middle, int first) {
@@ -220,7 +229,7 @@ void Splat(const SplatPerson& person, const SplatLight& light, const Patch& patc
     for (int chunk = 0; chunk < chunks_of(person); ++chunk) {
         staged.used = 0;
         for (int lane = 0; lane < chunk_points; lane += static_cast<int>(hn::Lanes(lanes)))
-            stage(person, light, patch, place, area, chunk, lane, staged);
+            stage(person, light, patch, place, area, person.total > 0.0f ? &parts : nullptr, chunk, lane, staged);
         for (std::uint32_t left = staged.used; left != 0; left &= left - 1)
             add(staged, patch, std::countr_zero(left));
     }

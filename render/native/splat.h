@@ -19,6 +19,9 @@ inline constexpr int cell_bits = 7;                   // positions: 128 steps a 
 inline constexpr std::int16_t cell_full = 8192;       // a cell that is covered once; up to 4 times fit
 inline constexpr std::uint16_t pixel_full = 16384;    // a pixel that is covered once; up to twice fits
 
+// Sums over so few points depend on which they are: they are made to cover what the silhouette does, one by one.
+inline constexpr int longest_summed_prefix = 128;
+
 // One person, as their points are drawn. 16-bit fixed point: 32767 = 1 where nothing else is said.
 struct SplatPerson {
     // Of the pose (splat_model.h).
@@ -53,6 +56,7 @@ struct SplatPerson {
 
     Rect bounds() const;                              // [px] of the picture, anywhere
     float nearest() const { return depth - reach; }  // [m] view depth
+    void prefetch() const;                           // the first points: they will be drawn soon
 };
 
 // The same for everybody: 16384 = 1.

@@ -29,6 +29,7 @@ std::uint16_t table_index(model::Slot slot) {
     return static_cast<std::uint16_t>((2 * slot + 1) << 8 | 2 * slot);
 }
 
+constexpr std::uint32_t first_rung = 1;  // two points
 constexpr float facet_unit = 64.0f;
 constexpr float share_unit = 16384.0f;
 
@@ -115,7 +116,7 @@ void SplatModel::pack_looks(const figures::Figure& figure) {
 
 void SplatModel::pack_shares(const figures::Figure& figure) {
     const Shares shares(*figure.points);
-    for (std::uint32_t rung = 1; static_cast<int>(pointsample::points_of_rung(rung)) < points_; ++rung)
+    for (std::uint32_t rung = first_rung; static_cast<int>(pointsample::points_of_rung(rung)) < points_; ++rung)
         rungs_.push_back(static_cast<int>(pointsample::points_of_rung(rung)));
     rungs_.push_back(points_);
     const std::size_t row = std::size_t{chunk_points} * chunks_;
@@ -132,8 +133,8 @@ void SplatModel::pack_shares(const figures::Figure& figure) {
 
 SplatModel::Blend SplatModel::shares(float count) const {
     const std::size_t row = std::size_t{chunk_points} * chunks_;
-    std::size_t rung = 0;
-    while (rung + 1 < rungs_.size() && static_cast<float>(rungs_[rung + 1]) <= count) ++rung;
+    std::size_t rung = pointsample::rung_of(static_cast<std::uint32_t>(count));
+    rung = std::min(rung < first_rung ? 0 : rung - first_rung, rungs_.size() - 1);
     const std::int16_t* near = &shares_[row * rung];
     if (rung + 1 == rungs_.size() || count <= static_cast<float>(rungs_[rung])) return {near, near, 0.0f};
     const float step = static_cast<float>(rungs_[rung + 1] - rungs_[rung]);
