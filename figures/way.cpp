@@ -19,10 +19,10 @@ constexpr Way way_of(sfsm::Drawing drawing, std::span<const Representation> repr
 
 }  // namespace
 
-std::size_t points_worth(std::size_t triangles, const Way& way) {
+std::size_t points_worth(std::size_t triangle_count, const Way& way) {
     const auto pieces = [&](sfsm::WorkKind kind) { return way.pieces[sfsm::index_of(kind)]; };
     const double points_a_triangle = pieces(sfsm::WorkKind::triangle) / pieces(sfsm::WorkKind::point);
-    const double count = std::floor(points_a_triangle * static_cast<double>(triangles));
+    const double count = std::floor(points_a_triangle * static_cast<double>(triangle_count));
     return count < static_cast<double>(way.most_points) ? static_cast<std::size_t>(count) : way.most_points;
 }
 

@@ -19,7 +19,7 @@ struct Way {
 
 // How many points a model of so many triangles can be drawn by: as many as are believed to cost what those do, at most
 // most_points.
-std::size_t points_worth(std::size_t triangles, const Way& way);
+std::size_t points_worth(std::size_t triangle_count, const Way& way);
 
 const Way& by_opengl();
 const Way& natively();

@@ -7,8 +7,6 @@
 namespace sfsm {
 namespace {
 
-constexpr double rounding = 1e-9;  // relative: of times that differ by less neither is the cheaper
-
 // What a step's work on its own axis takes.
 template <WorkAxis axis>
 double step_ms(const Step& step, const Prices& prices) {
@@ -79,14 +77,24 @@ double loss_at(std::span<const Step> steps, const Place& place) {
     return place.share < 1 ? std::lerp(steps[place.at - 1].loss_px, b, place.share) : b;
 }
 
+bool is_cheaper(double ms, double other_ms) {
+    constexpr double rounding = 1e-9;
+    return ms < other_ms * (1 - rounding);
+}
+
 // The cheapest place from there on that loses as little: a renderer may gain nothing from its finest steps.
 template <class Cost>
 Place cheapest_alike(std::span<const Step> steps, Place place, const Cost& cost) {
-    const auto is_alike = [&](std::size_t i) { return steps[i].loss_px == steps[i - 1].loss_px; };
-    if (place.share < 1 && is_alike(place.at)) place.share = 1;
-    if (place.share < 1) return place;
-    for (std::size_t i = place.at + 1; i < steps.size() && is_alike(i); ++i)
-        if (cost(steps[i]) < cost(steps[place.at])) place.at = i;
+    if (place.at >= steps.size()) return place;
+    const double loss = loss_at(steps, place);
+    double least_ms = cost(steps[place.at]);
+    if (place.share < 1) least_ms = std::lerp(cost(steps[place.at - 1]), least_ms, place.share);
+    for (std::size_t i = place.at; i < steps.size() && steps[i].loss_px <= loss; ++i) {
+        const double ms = cost(steps[i]);
+        if (!is_cheaper(ms, least_ms)) continue;
+        place = {i, 1};
+        least_ms = ms;
+    }
     return place;
 }
 
@@ -144,7 +152,7 @@ Plan least_loss_plan(const Forecast& forecast, double range, const Prices& price
         if (motion.at >= forecast.motion.size() || shapes.at >= forecast.shapes.size()) return;
         const double loss = loss_at(forecast.motion, motion) + loss_at(forecast.shapes, shapes);
         if (loss > least) return;
-        if (loss == least && !(ms_of(motion, shapes) < ms_of(best_motion, best_shapes) * (1 - rounding))) return;
+        if (loss == least && !is_cheaper(ms_of(motion, shapes), ms_of(best_motion, best_shapes))) return;
         least = loss;
         best_motion = motion;
         best_shapes = shapes;

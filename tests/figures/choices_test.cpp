@@ -105,14 +105,15 @@ TEST(Representations, LevelsRiseInReachAndInWork) {
         bool some_exact = false;
         for (const figures::Representation& representation : way->representations) {
             const std::vector<Level> levels = representation.levels(character.figure());
-            ASSERT_FALSE(levels.empty()) << way->name << ' ' << representation.name;
+            ASSERT_FALSE(levels.empty()) << sfsm::name_of(way->drawing) << ' ' << representation.name;
             for (std::size_t i = 1; i < levels.size(); ++i) {
-                EXPECT_GT(levels[i].reach, levels[i - 1].reach) << way->name << ' ' << representation.name;
+                EXPECT_GT(levels[i].reach, levels[i - 1].reach)
+                    << sfsm::name_of(way->drawing) << ' ' << representation.name;
                 EXPECT_GT(cost_of(levels[i].work, *way), cost_of(levels[i - 1].work, *way));
             }
             some_exact |= std::isinf(levels.back().reach);
         }
-        EXPECT_TRUE(some_exact) << way->name << ": somebody may come as near as they like";
+        EXPECT_TRUE(some_exact) << sfsm::name_of(way->drawing) << ": somebody may come as near as they like";
     }
 }
 
@@ -123,12 +124,13 @@ TEST(Representations, LoseNoLessAsSGrowsAndNeverMoreThanHalfAPerson) {
                 double before = 0;
                 for (double size = 0; size <= 32; size += 0.25) {
                     const double loss = representation.outline_px(size, silhouette);
-                    EXPECT_GE(loss, before) << way->name << ' ' << representation.name;
-                    EXPECT_LE(loss, silhouette / 2) << way->name << ' ' << representation.name;
+                    EXPECT_GE(loss, before) << sfsm::name_of(way->drawing) << ' ' << representation.name;
+                    EXPECT_LE(loss, silhouette / 2) << sfsm::name_of(way->drawing) << ' ' << representation.name;
                     before = loss;
                 }
                 if (representation.is_mesh) {
-                    EXPECT_EQ(representation.outline_px(0, silhouette), 0) << way->name << ' ' << representation.name;
+                    EXPECT_EQ(representation.outline_px(0, silhouette), 0)
+                        << sfsm::name_of(way->drawing) << ' ' << representation.name;
                 }
             }
         }

@@ -164,7 +164,7 @@ TEST(Units, OfAModelChangeNothingThatIsSeen) {
         Selector one(metres.crowd, metres.cast, metres.figures()), two(other.crowd, other.cast, other.figures());
         const sfsm::Forecast expected = one.survey(along_the_columns(), 100).forecast,
                              found = two.survey(along_the_columns(), 100).forecast;
-        EXPECT_EQ(found.people, expected.people);
+        EXPECT_EQ(found.frame, expected.frame);
         for (std::size_t i = 0; i < expected.shapes.size(); ++i) {
             const auto points = static_cast<double>(expected.shapes[i].work[sfsm::WorkKind::point]),
                        triangles = static_cast<double>(expected.shapes[i].work[sfsm::WorkKind::triangle]);
