@@ -25,8 +25,7 @@ struct Step {
 // counts in a straight line of logarithms. So steps of S are about a quarter of an octave apart. Between triangles and
 // the smallest S there is nothing. Valid until the next frame's.
 struct Forecast {
-    Work
-        frame;  // of WorkAxis::frame, the other counts 0: people in view and all else that is drawn whatever is decided
+    Work frame;  // on WorkAxis::frame, which no decision changes: people in view and what is around them; else 0
     std::span<const Step> motion;
     std::span<const Step> shapes;
 };

@@ -168,7 +168,38 @@ TEST_F(ReplayProgram, NamesTheTraceWhoseDelayIsNone) {
     for (const char* option : {" --verify", ""}) {
         const Outcome outcome = replay(saved + option);
         EXPECT_EQ(outcome.code, 1);
-        EXPECT_NE(outcome.err.find(saved + ": found setting delay=99"), std::string::npos) << outcome.err;
+        EXPECT_NE(outcome.err.find(saved + ": found setting delay='99'"), std::string::npos) << outcome.err;
+    }
+}
+
+TEST_F(ReplayProgram, NamesTheTraceWhoseDrawingIsNone) {
+    sfsm::Trace trace = recorded();
+    trace.settings["draw"] = "vulkan";
+    const std::string saved = save(trace);
+    for (const char* option : {" --verify", " --fit", ""}) {
+        const Outcome outcome = replay(saved + option);
+        EXPECT_EQ(outcome.code, 1);
+        EXPECT_NE(outcome.err.find(saved + ": found setting draw="), std::string::npos) << outcome.err;
+        EXPECT_NE(outcome.err.find("expected one of: gl native"), std::string::npos) << outcome.err;
+    }
+}
+
+// What is believed of prices beforehand is that of what the frames were drawn by, in every use of a trace.
+TEST_F(ReplayProgram, TakesTheBeliefsOfWhatDrewTheTrace) {
+    sfsm::Trace trace = recorded();
+    const std::string unsaid = save(trace, "unsaid.csv");
+    trace.settings["draw"] = "gl";
+    const std::string gl = save(trace, "gl.csv");
+    trace.settings["draw"] = "native";
+    const std::string native = save(trace, "native.csv");
+    for (const std::string& same : {unsaid, gl}) EXPECT_EQ(replay(same + " --verify").code, 0) << same;
+    EXPECT_EQ(replay(native + " --verify").code, 1) << "natively its law would have begun otherwise";
+    EXPECT_EQ(replay(unsaid + " --fit --json -").out, replay(gl + " --fit --json -").out);
+    for (const char* loop : {"", " --open-loop"}) {
+        ASSERT_EQ(replay(native + loop + " --csv " + in_folder("out.csv")).code, 0) << loop;
+        EXPECT_NE(content("out.csv").find("# draw=native\n"), std::string::npos);
+        const Outcome again = replay(in_folder("out.csv") + " --verify");
+        EXPECT_EQ(again.code, 0) << loop << again.err;
     }
 }
 

@@ -55,6 +55,13 @@ TEST(Stage, KnowsEachOfItsCharacters) {
     EXPECT_EQ(stage->points[1].size(), 120u);
 }
 
+TEST(Stage, HasMorePointsWhereTheyCostLess) {
+    const tests::Directory directory;
+    const auto stage = apps::build_stage({tower(directory, 20)}, people, 1, apps::PointCache(""), figures::natively());
+    EXPECT_EQ(stage->points[0].size(), figures::points_worth(240, figures::natively()));
+    EXPECT_GT(stage->points[0].size(), 240u);
+}
+
 TEST(Stage, HasTheBuiltInPersonWhereNoFileIsNamed) {
     const auto stage = apps::build_stage({}, people, 1, apps::PointCache(""), figures::by_opengl());
     ASSERT_EQ(stage->meshes.size(), 1u);

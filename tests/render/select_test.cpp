@@ -143,6 +143,23 @@ TEST(Batches, PartThePeopleByHowTheyAreDrawn) {
     }
 }
 
+// What is drawn besides people is known before, and in the frame as it was known.
+TEST(Selection, HasTheWorkOfWhatIsAroundThePeople) {
+    const sfsm::Work around{0, 0, 0, 0, 1234, 640 * 360};
+    Selector selector(small_scene().crowd, small_scene().cast, small_scene().figures());
+    const render::View view = view_of("still");
+    const std::int64_t people = selector.survey(view, 100).forecast.frame[sfsm::WorkKind::person];
+    const sfsm::Work bare = selector.select(points_of(2), 99).work;
+    sfsm::Work expected = around;
+    expected[sfsm::WorkKind::person] = people;
+    for (int frame = 0; frame < 2; ++frame) {  // it doesn't add up
+        EXPECT_EQ(selector.survey(view, 100, around).forecast.frame, expected);
+        sfsm::Work all = bare;
+        all += around;
+        EXPECT_EQ(selector.select(points_of(2), 99).work, all);
+    }
+}
+
 // Whatever was asked for: a frame in which nobody is a point is not of state 2, and one in which everybody moves in
 // every frame not of state 1.
 TEST(Selection, StateFollowsFromWhatWasDrawn) {

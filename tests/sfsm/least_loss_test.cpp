@@ -92,6 +92,57 @@ TEST(LeastLoss, MoreTimeNeverLosesMore) {
     }
 }
 
+// Natively splats below half a pixel gain nothing, and where nobody is excited a shorter D loses nothing.
+TEST(LeastLoss, OfEqualLossesTheCheapestIsTaken) {
+    const std::vector<Step> motion = {motion_step(std::numeric_limits<double>::infinity(), 1000, 0),
+                                      motion_step(120, 600, 0), motion_step(60, 200, 3)};
+    const std::vector<Step> shapes = {shape_step(0, 90'000, 0, 0), shape_step(0.25, 0, 3200, 1),
+                                      shape_step(0.35, 0, 1600, 1), shape_step(0.5, 0, 800, 1),
+                                      shape_step(1, 0, 400, 2)};
+    const Forecast forecast{Work{100}, motion, shapes};
+    const Prices prices{1, {0, 0.01, 0.01, 0.01}};
+    for (const double budget : {1 + 6 + 8.001, 1 + 6 + 12.0, 1 + 10 + 17.0, 1 + 10 + 500.0}) {
+        const Plan plan = least_loss_plan(forecast, test_range, prices, budget);
+        EXPECT_EQ(plan.size, 0.5) << budget;
+        EXPECT_EQ(plan.distance, 120) << budget;
+        EXPECT_EQ(plan.loss_px, 1) << budget;
+    }
+    EXPECT_EQ(least_loss_plan(forecast, test_range, prices, 1 + 6 + 900.0).size, 0) << "triangles lose less";
+}
+
+TEST(LeastLoss, NoPairOfStepsLosesAsLittleForLess) {
+    std::mt19937_64 random(6);
+    for (int trial = 0; trial < 1000; ++trial) {
+        Steps steps(random);
+        for (std::size_t i = 1; i < steps.motion.size(); ++i)
+            if (random() % 2) steps.motion[i].loss_px = steps.motion[i - 1].loss_px;
+        for (std::size_t i = 2; i < steps.shapes.size(); ++i)
+            if (random() % 2) steps.shapes[i].loss_px = steps.shapes[i - 1].loss_px;
+        const double most = steps.ms(steps.motion.front(), steps.shapes.front());
+        const Plan plan = least_loss_plan(steps.forecast(), test_range, steps.prices, uniform(random, 0, 1.1 * most));
+        for (const Step& m : steps.motion)
+            for (const Step& s : steps.shapes)
+                if (m.loss_px + s.loss_px == plan.loss_px) {
+                    ASSERT_LE(plan_ms(plan, steps.prices), steps.ms(m, s) * (1 + rounding)) << trial;
+                }
+    }
+}
+
+TEST(LeastLoss, CountsAllThatIsKnownBeforehand) {
+    const std::vector<Step> motion = {motion_step(test_range, 0, 0)};
+    const std::vector<Step> shapes = {shape_step(0, 1000, 0, 0), shape_step(1, 0, 800, 2), shape_step(2, 0, 400, 4)};
+    const Prices prices{1, {0.01, 0.01, 0.01, 0, 0.001, 0.0001}};
+    const Forecast bare{Work{100}, motion, shapes}, around{Work{100, 0, 0, 0, 3000, 10'000}, motion, shapes};
+    for (const double rest : {4.0, 6.0, 8.0, 10.0}) {
+        const Plan plan = least_loss_plan(bare, test_range, prices, 1 + 1 + rest);
+        const Plan same = least_loss_plan(around, test_range, prices, 1 + 1 + 3 + 1 + rest);
+        EXPECT_NEAR(same.size, plan.size, rounding);
+        EXPECT_NEAR(plan_ms(same, prices), plan_ms(plan, prices) + 4, rounding);
+        EXPECT_EQ(same[WorkKind::structure_triangle], 3000);
+        EXPECT_EQ(same[WorkKind::pixel], 10'000);
+    }
+}
+
 // Between two steps all of the time is used, but where there is no between: from triangles to the finest points, and
 // down from a distance without end.
 TEST(LeastLoss, ABudgetBetweenTwoSplatSizesIsMetBetweenThem) {

@@ -244,6 +244,7 @@ struct Scene {
     std::vector<Step> motion, shapes;
     Forecast forecast;
     double drawn = 1;  // points and triangles, for each that is foreseen
+    Work around;       // structure and background
 
     double updates(double share) const {
         const double near = std::pow(share, farness);
@@ -262,12 +263,14 @@ struct Scene {
             const double size = 0.5 * std::exp2(i / 4.0);
             shapes.push_back(shape_step(size, 0, std::llround(people * points_each / size), 0.5 * size));
         }
-        forecast = {Work{std::llround(people)}, motion, shapes};
+        forecast = {around, motion, shapes};
+        forecast.frame[WorkKind::person] = std::llround(people);
     }
     Work work(const Decision& decision) const {
         const double share =
             decision.state == State::original ? 1 : std::min(1.0, decision.motion_distance / test_range);
-        Work work{std::llround(people), 0, 0, std::llround(updates(share))};
+        Work work = forecast.frame;
+        work[WorkKind::motion_update] = std::llround(updates(share));
         if (decision.state == State::points) {
             work[WorkKind::point] = std::llround(drawn * people * points_each / decision.splat_size);
         } else {
@@ -485,6 +488,46 @@ TEST(PredictiveForecast, ProbesAreFewAndApartAndOfTwoSplatSizes) {
     }
     EXPECT_LE(slowed, PredictiveOptions{}.probes);
     EXPECT_EQ(sizes, (std::vector<double>{0.5, 2})) << "the finest, and one four times as coarse";
+}
+
+TEST(PredictiveForecast, ProbesNoSplatThatIsFinerThanIsOfUse) {
+    Scene scene = scene_of(2000);
+    for (Step& step : scene.shapes) step.loss_px = step.setting == 0 ? 0 : std::max(0.5, 0.5 * step.setting);
+    PredictiveLaw law;
+    const auto rows =
+        run(law, ForecastLoop{[&](std::int64_t) -> const Scene& { return scene; }, constant(target_ms), 600, 2, 0.01});
+    for (const TraceRow& row : rows)
+        if (row.decision.state == State::points) {
+            EXPECT_GE(row.decision.splat_size, 1) << row.frame;
+        }
+}
+
+// A camera that turns from the field to the stands draws more than people.
+TEST(PredictiveForecast, ACutToAnotherBackgroundIsInBandOnItsFirstFrame) {
+    Scene field = scene_of(20'000), stands = scene_of(20'000);
+    for (Scene* scene : {&field, &stands}) scene->prices[WorkKind::structure_triangle] = 4e-5;
+    field.around[WorkKind::structure_triangle] = 10'000;
+    stands.around[WorkKind::structure_triangle] = 120'000;
+    field.count();
+    stands.count();
+    PredictiveLaw law(PredictiveOptions{}, Drawing::native);
+    const auto view_at = [&](std::int64_t frame) -> const Scene& { return frame / 100 % 2 == 0 ? field : stands; };
+    const auto rows = run(law, ForecastLoop{view_at, constant(target_ms), 1000});
+    for (std::size_t i = 400; i < rows.size(); ++i)
+        ASSERT_NEAR(rows[i].frame_ms, target_ms, 0.1 * target_ms) << "frame " << i;
+}
+
+// Points that cost a sixth of a triangle are not believed to cost two of them, nor triangles to be llvmpipe's.
+TEST(PredictiveForecast, NothingIsDrawnFinerAtFirstThanItsOwnDrawingIsBelievedToAllow) {
+    const Scene scene = scene_of(4000);
+    const FrameRequest request{target_ms, test_range, &scene.forecast};
+    const Decision gl = make_controller("predictive", Drawing::opengl)->decide(request);
+    const Decision native = make_controller("predictive", Drawing::native)->decide(request);
+    ASSERT_EQ(gl.state, State::points);
+    ASSERT_EQ(native.state, State::points);
+    EXPECT_LT(native.splat_size, gl.splat_size / 4);
+    EXPECT_GT(native.motion_distance, gl.motion_distance);
+    EXPECT_EQ(make_controller("predictive")->decide(request), gl) << "OpenGL, if nobody says";
 }
 
 TEST(PredictiveForecast, ThereIsNoProbeWhileTheTargetIsMissed) {

@@ -81,5 +81,13 @@ TEST(Replay, DelayIsASmallWholeNumberOrAbsent) {
     }
 }
 
+TEST(Replay, DrawingIsOneThatThereIsOrOpenGL) {
+    EXPECT_EQ(trace_drawing({}), Drawing::opengl);
+    EXPECT_EQ(trace_drawing({{{"draw", "gl"}}, {}}), Drawing::opengl);
+    EXPECT_EQ(trace_drawing({{{"draw", "native"}}, {}}), Drawing::native);
+    for (const char* text : {"", "opengl", "Native", "vulkan"})
+        EXPECT_THROW(trace_drawing({{{"draw", text}}, {}}), std::runtime_error) << text;
+}
+
 }  // namespace
 }  // namespace sfsm

@@ -173,6 +173,34 @@ TEST(CostFit, SharesTheTimeOfAConstantCrowdBetweenItAndTheFrame) {
     EXPECT_NEAR(fit.r2, 1, 1e-12);
 }
 
+// By llvmpipe a point costs two triangles, natively a sixth of one.
+TEST(CostFit, GuessesAreThoseOfWhatTheRowsWereDrawnBy) {
+    std::vector<TraceRow> rows = run_of(600, true_prices);
+    std::erase_if(rows, [](const TraceRow& row) { return row.work[WorkKind::triangle] > 0; });
+    add_noise(rows, 0.02, 0);
+    const CostFit gl = fit_costs(rows), native = fit_costs(rows, Drawing::native);
+    for (const CostFit* fit : {&gl, &native})
+        EXPECT_NEAR(fit->prices[WorkKind::point], true_prices[WorkKind::point], 0.05 * true_prices[WorkKind::point]);
+    EXPECT_LT(gl.prices[WorkKind::triangle], gl.prices[WorkKind::point]);
+    EXPECT_GT(native.prices[WorkKind::triangle], 2 * native.prices[WorkKind::point]);
+}
+
+TEST(CostFit, RecoversThePricesOfStructureAndBackground) {
+    Prices prices = true_prices;
+    prices[WorkKind::structure_triangle] = 3e-5;
+    prices[WorkKind::pixel] = 1.5e-6;
+    std::vector<TraceRow> rows = run_of(300, prices);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        rows[i].work[WorkKind::structure_triangle] = 20'000 + 300 * static_cast<std::int64_t>(i * i % 311);
+        rows[i].work[WorkKind::pixel] = i % 5 == 0 ? 0 : 921'600;  // the camera stood still
+        rows[i].frame_ms = cost_of(rows[i].work, prices);
+    }
+    const CostFit fit = fit_costs(rows, Drawing::native);
+    expect_prices(fit.prices, prices, 1e-8);
+    for (const WorkKind kind : {WorkKind::structure_triangle, WorkKind::pixel})
+        EXPECT_NEAR(fit.prices[kind], prices[kind], 1e-8 * prices[kind]) << entry_of(kind).name;
+}
+
 TEST(CostFit, GuessesThePriceOfTrianglesNeverDrawnFromThatOfPoints) {
     std::vector<TraceRow> rows = run_of(600, true_prices);
     std::erase_if(rows, [](const TraceRow& row) { return row.work[WorkKind::triangle] > 0; });
