@@ -273,11 +273,11 @@ TEST_F(Picture, HasItsWorkAroundPeopleKnownBeforehand) {
     scene::StaticMeshBuilder builder;
     builder.ground();
     builder.close_sector();
-    const render::gl::Renderer renderer(builder.mesh, {"stadium.glsl", {}}, {}, {}, 8, 8);
+    render::gl::Renderer renderer(builder.mesh, {"stadium.glsl", {}}, {}, {}, 8, 8);
     const auto triangles = static_cast<std::int64_t>(builder.mesh.indices.size() / 3);
     ASSERT_GT(triangles, 0);
     const auto work_towards = [&](glm::dvec3 target) {
-        return renderer.work_around(render::make_view({{0, 5, 0}, target, 0.5}, 16, 9));
+        return renderer.begin(render::make_view({{0, 5, 0}, target, 0.5}, 16, 9)).work;
     };
     EXPECT_EQ(work_towards({1, 0, 0}), (sfsm::Work{0, 0, 0, 0, triangles, 16 * 9}));
     EXPECT_EQ(work_towards({0.1, 50, 0}), (sfsm::Work{0, 0, 0, 0, 0, 16 * 9})) << "the sky";

@@ -153,7 +153,7 @@ TEST(Selection, HasTheWorkOfWhatIsAroundThePeople) {
     sfsm::Work expected = around;
     expected[sfsm::WorkKind::person] = people;
     for (int frame = 0; frame < 2; ++frame) {  // it doesn't add up
-        EXPECT_EQ(selector.survey(view, 100, around).forecast.frame, expected);
+        EXPECT_EQ(selector.survey(view, 100, {around, nullptr}).forecast.frame, expected);
         sfsm::Work all = bare;
         all += around;
         EXPECT_EQ(selector.select(points_of(2), 99).work, all);

@@ -15,7 +15,7 @@ render::gl::Device device_that_is(bool software) {
     return device;
 }
 
-std::optional<render::gl::FrameTime> draw_frame(render::gl::FrameTimer& timer, std::int64_t frame) {
+std::optional<render::FrameTime> draw_frame(render::gl::FrameTimer& timer, std::int64_t frame) {
     timer.begin(frame);
     timer.submit();
     return timer.end();
