@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "figures/representation.h"
+#include "figures/way.h"
 #include "render/frame.h"
 
 namespace tests {
@@ -19,16 +19,11 @@ struct MeshPeople {
     MeshPeople& operator=(const MeshPeople&) = delete;
 };
 
+// Of a frame that is drawn natively.
 inline std::vector<render::Person> mesh_people(const render::Frame& frame) {
     std::vector<render::Person> people;
-    for (const render::Batch& batch : frame.batches) {
-        if (!figures::representations()[batch.representation].is_mesh) continue;
-        for (std::uint32_t i = 0; i < batch.instance_count; ++i) {
-            const render::Instance& instance = frame.instances[batch.first_instance + i];
-            people.push_back({instance, batch.character, batch.representation, batch.first, batch.count, batch.pose, 0,
-                              frame.view.depth(instance.position)});
-        }
-    }
+    for (const render::Person& person : frame.people)
+        if (figures::natively().representations[person.representation].is_mesh) people.push_back(person);
     return people;
 }
 

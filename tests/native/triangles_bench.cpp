@@ -94,7 +94,7 @@ int main(int argc, char** argv) {
     constexpr int width = 1280, height = 720;
     tests::SmallScene scene(count);
     const render::View view = render::make_view(scene::aim_cameras(scene.plan).named(camera).at(0), width, height);
-    render::Selector selector(scene.crowd, scene.cast, scene.figures());
+    render::Selector selector(scene.crowd, scene.cast, scene.figures(), {.way = &figures::natively()});
     selector.survey(view, 0);
     tests::MeshPeople all(tests::mesh_people(selector.select({sfsm::State::points, 0, 2}, -1)));
     std::ranges::sort(all.pointers, {}, &render::Person::depth);
