@@ -39,7 +39,7 @@ const std::string dead_wayland = "wayland-nowhere";
 
 std::string refusal_of_a_window() {
     try {
-        const render::gl::Window window("none", 64, 64);
+        const render::gl::Window window("none", 64, 64, render::gl::Window::Use::draw);
     } catch (const std::runtime_error& error) {
         return error.what();
     }
@@ -90,7 +90,7 @@ TEST(WindowDisplay, IsX11WhereWaylandAnswersToo) {
                                           {"WAYLAND_DISPLAY", compositor.display()},
                                           {"XDG_RUNTIME_DIR", compositor.runtime_directory()},
                                           {"XDG_SESSION_TYPE", "wayland"}});
-    const render::gl::Window window("on X11", 64, 64);
+    const render::gl::Window window("on X11", 64, 64, render::gl::Window::Use::draw);
     Display* display = XOpenDisplay(nullptr);
     ASSERT_NE(display, nullptr);
     EXPECT_NE(newest_window(display), 0u);
@@ -114,7 +114,7 @@ protected:
         if (server_.display().empty()) GTEST_SKIP() << "NO XVFB, THE WINDOW'S KEYS ARE NOT TESTED";
         environment_.emplace(std::map<std::string, std::optional<std::string>>{{"DISPLAY", server_.display()},
                                                                                {"WAYLAND_DISPLAY", std::nullopt}});
-        window_.emplace("keys", 64, 64);
+        window_.emplace("keys", 64, 64, render::gl::Window::Use::draw);
         display_ = XOpenDisplay(nullptr);
         ASSERT_NE(display_, nullptr);
         x_window_ = newest_window(display_);
