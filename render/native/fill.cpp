@@ -233,14 +233,62 @@ RichShading rich_shading(const TextureLayers& textures, const Corner (&corners)[
 
 // ---- people of no more than reach_on_grid: 32-bit edges, a group of triangles set up at a time ----
 
+// Blocks are looked at sixteen at a time, in a square; row by row.
+constexpr int square_side = sample_block_side;
+constexpr int square_blocks = square_side * square_side;
+
+// Columns and rows, in turns.
+struct Offsets16 {
+    alignas(64) std::int16_t xy[block_samples][2];
+};
+// Where samples are, from a square's first one: of each of its blocks, and the first of all of them.
+struct SquareOffsets {
+    Offsets16 samples[square_blocks], blocks;
+};
+constexpr SquareOffsets square_offsets = [] {
+    SquareOffsets made{};
+    for (int b = 0; b < square_blocks; ++b) {
+        const int x = sample_block_side * (b % square_side), y = sample_block_side * (b / square_side);
+        made.blocks.xy[b][0] = static_cast<std::int16_t>(x);
+        made.blocks.xy[b][1] = static_cast<std::int16_t>(y);
+        for (int i = 0; i < block_samples; ++i) {
+            made.samples[b].xy[i][0] = static_cast<std::int16_t>(x + sample_x(i));
+            made.samples[b].xy[i][1] = static_cast<std::int16_t>(y + sample_y(i));
+        }
+    }
+    return made;
+}();
+
+// Which blocks of a square lie in its first n columns, and rows; a bit each.
+struct Within {
+    std::uint32_t columns[square_side + 1], rows[square_side + 1];
+};
+constexpr Within within = [] {
+    Within made{};
+    for (int n = 0; n <= square_side; ++n) {
+        for (int b = 0; b < square_blocks; ++b) {
+            made.columns[n] |= std::uint32_t{b % square_side < n} << b;
+            made.rows[n] |= std::uint32_t{b / square_side < n} << b;
+        }
+    }
+    return made;
+}();
+
 // Edge k lies opposite of corner k; inside all three are >= 0. In steps of a sample, rounded down.
 struct alignas(64) EdgeGroup {
-    std::int32_t along[3][group], down[3][group];  // more a sample to the right, below
-    std::int32_t start[3][group];                  // at the first sample of the first block
+    std::int32_t slope[3][group];  // more a sample to the right in the low half, below in the high one: both fit
+    std::int32_t start[3][group];  // at the first sample of the first block
+    std::int32_t most[3][group];   // that it gains within a block
     // How much of corner k = 1, 2 a sample is: scale * edge + rest[k - 1].
     float scale[group], rest[2][group];
+    float nearest[group];  // that any sample may be
+    float depth[group], depth_second[group], depth_third[group];  // depth + edge 1 * second + edge 2 * third
     std::int32_t first_column[group], end_column[group], first_row[group], end_row[group];  // blocks from the person's
+
+    int along(int k, int t) const { return static_cast<std::int16_t>(slope[k][t]); }
+    int down(int k, int t) const { return slope[k][t] >> 16; }
 };
+static_assert(reach_on_grid <= INT16_MAX);
 
 struct Blocks {
     int first_column, end_column, first_row, end_row;
@@ -261,7 +309,7 @@ void block_range(VInt least, VInt most, int first, int end, VInt& from, VInt& to
 static_assert(grid_per_sample == 16 && sample_block_side == 4);
 
 // Those lanes of `out` that have any block; a bit each.
-std::uint32_t set_up(const FacingTriangle* facing, const Blocks& tile, EdgeGroup& out) {
+std::uint32_t set_up_edges(const FacingTriangle* facing, const Blocks& tile, EdgeGroup& out) {
     const Floats f;
     const Ints i;
     const Words w;
@@ -306,9 +354,11 @@ std::uint32_t set_up(const FacingTriangle* facing, const Blocks& tile, EdgeGroup
             const auto owns = hn::Or(hn::Gt(along, zero), hn::And(hn::Eq(along, zero), hn::Gt(down, zero)));
             const auto owned = hn::Sub(exact, hn::IfThenZeroElse(owns, hn::Set(i, 1)));
             const auto floor = hn::ShiftRight<4>(owned);
-            hn::Store(along, i, out.along[k] + lane);
-            hn::Store(down, i, out.down[k] + lane);
+            const auto slope = hn::Or(hn::And(along, hn::Set(i, 0xffff)), hn::ShiftLeft<16>(down));
+            const auto gained = hn::Add(hn::Max(along, zero), hn::Max(down, zero));
+            hn::Store(slope, i, out.slope[k] + lane);
             hn::Store(floor, i, out.start[k] + lane);
+            hn::Store(hn::Add(gained, hn::Add(gained, gained)), i, out.most[k] + lane);
             if (k == 0) continue;
             const auto rest = hn::ConvertTo(f, hn::Sub(exact, hn::ShiftLeft<4>(floor)));
             hn::Store(hn::Mul(rest, over_area), f, out.rest[k - 1] + lane);
@@ -316,63 +366,94 @@ std::uint32_t set_up(const FacingTriangle* facing, const Blocks& tile, EdgeGroup
     }
     return alive;
 }
+static_assert(sample_block_side - 1 == 3);
 
 // The corners of a triangle on the screen.
 struct FacingCorners {
-    const LitVertex* vertices[3];
-    const Tint* tints[3];
-    std::uint32_t numbers[3];  // of the vertices
+    std::uint32_t numbers[3], paints[3];
     const Face* face;
 };
 
-FacingCorners corners_of(const PersonMesh& mesh, std::uint32_t number, const LitVertex* vertices, const Tint* tints) {
+FacingCorners corners_of(const PersonMesh& mesh, std::uint32_t number) {
     const Face& face = mesh.faces[number & ~from_behind];
-    const int second = (number & from_behind) == 0 ? 1 : 2, third = 3 - second;
-    FacingCorners out{{}, {}, {face.corners[0], face.corners[second], face.corners[third]}, &face};
-    for (int k = 0; k < 3; ++k) out.vertices[k] = vertices + out.numbers[k];
-    out.tints[0] = tints + face.paints[0];
-    out.tints[1] = tints + face.paints[second];
-    out.tints[2] = tints + face.paints[third];
-    return out;
+    const std::uint32_t turned = number / from_behind, second = 1 + turned, third = 2 - turned;
+    return {{face.corners[0], face.corners[second], face.corners[third]},
+            {face.paints[0], face.paints[second], face.paints[third]},
+            &face};
 }
 
-float nearest(const FacingCorners& corners) {
-    return std::max({corners.vertices[0]->depth, corners.vertices[1]->depth, corners.vertices[2]->depth});
+// Of those of set_up_edges() that are alive.
+void set_up_depths(const PersonMesh& mesh, const FacingTriangle* facing, std::uint32_t alive, const LitVertex* vertices,
+                   EdgeGroup& out) {
+    const Floats f;
+    alignas(64) float corner[3][group] = {};
+    for (std::uint32_t left = alive; left != 0; left &= left - 1) {
+        const int t = std::countr_zero(left);
+        const FacingCorners corners = corners_of(mesh, facing[t].face);
+        for (int k = 0; k < 3; ++k) corner[k][t] = vertices[corners.numbers[k]].depth;
+    }
+    for (int lane = 0; lane < group; lane += lanes) {
+        const auto at = hn::Load(f, corner[0] + lane);
+        const auto at_second = hn::Load(f, corner[1] + lane), at_third = hn::Load(f, corner[2] + lane);
+        const auto second = hn::Sub(at_second, at), third = hn::Sub(at_third, at);
+        const auto scale = hn::Load(f, out.scale + lane);
+        constexpr float rounding = 1.0f + 1e-6f;
+        const auto nearest = hn::Max(at, hn::Max(at_second, at_third));
+        hn::Store(hn::Mul(nearest, hn::Set(f, rounding)), f, out.nearest + lane);
+        hn::Store(hn::Add(hn::Add(at, hn::Mul(second, hn::Load(f, out.rest[0] + lane))),
+                          hn::Mul(third, hn::Load(f, out.rest[1] + lane))),
+                  f, out.depth + lane);
+        hn::Store(hn::Mul(second, scale), f, out.depth_second + lane);
+        hn::Store(hn::Mul(third, scale), f, out.depth_third + lane);
+    }
 }
 
-bool is_flat(const FacingCorners& corners) {
-    constexpr float flat_enough = 0.99f;  // of depths, nearest by farthest: their perspective doesn't show
-    const float farthest =
-        std::min({corners.vertices[0]->depth, corners.vertices[1]->depth, corners.vertices[2]->depth});
-    return farthest >= flat_enough * nearest(corners);
-}
-
-// What a triangle's edges say of a sample.
-struct Interpolation {
-    float depth, depth_second, depth_third;  // depth + edge 1 * depth_second + edge 2 * depth_third
-    float scale, rest_second, rest_third;    // EdgeGroup's
+// What a person is drawn with.
+struct Dress {
+    const PersonMesh& mesh;
+    const LitVertex* vertices;
+    const Tint* tints;
 };
 
-Interpolation interpolation(const EdgeGroup& edges, int t, const FacingCorners& corners) {
-    const float depth = corners.vertices[0]->depth;
-    const float second = corners.vertices[1]->depth - depth, third = corners.vertices[2]->depth - depth;
-    const float scale = edges.scale[t], rest_second = edges.rest[0][t], rest_third = edges.rest[1][t];
-    return {depth + second * rest_second + third * rest_third,
-            second * scale,
-            third * scale,
-            scale,
-            rest_second,
-            rest_third};
+bool is_flat(const Dress& dress, const FacingCorners& corners) {
+    constexpr float flat_enough = 0.99f;  // of depths, nearest by farthest: their perspective doesn't show
+    const auto depth = [&](int k) { return dress.vertices[corners.numbers[k]].depth; };
+    return std::min({depth(0), depth(1), depth(2)}) >= flat_enough * std::max({depth(0), depth(1), depth(2)});
 }
 
-// By edges 1 and 2. False where light and albedo both change so much that their product isn't linear enough: a sample
-// could be off by one of 255 steps as stored, that is of a square root.
-bool plain_shading(const FacingCorners& corners, const Interpolation& by, PlainShading& shading) {
+using FourFloats = hn::Vec<Four>;
+
+// Of numbers at the corners.
+PlainShading by_edges(FourFloats at, FourFloats at_second, FourFloats at_third, float added, const EdgeGroup& edges,
+                      int t) {
+    const Four f;
+    PlainShading shading;
+    const auto second = hn::Sub(at_second, at), third = hn::Sub(at_third, at);
+    const auto rest =
+        hn::Add(hn::Mul(second, hn::Set(f, edges.rest[0][t])), hn::Mul(third, hn::Set(f, edges.rest[1][t])));
+    const auto scale = hn::Set(f, edges.scale[t]);
+    hn::Store(hn::Add(hn::Add(at, rest), hn::Set(f, added)), f, shading.at);
+    hn::Store(hn::Mul(second, scale), f, shading.second);
+    hn::Store(hn::Mul(third, scale), f, shading.third);
+    return shading;
+}
+
+// How a triangle is coloured; found out when the first of its samples is seen.
+struct Shading {
+    enum class Kind { unknown, plain, product, rich } kind = Kind::unknown;
+    PlainShading plain;   // of the colour, or of the light
+    PlainShading albedo;  // of a product
+    RichShading rich;
+};
+
+// Without texture and perspective. Where light and albedo both change so much that their product isn't linear enough
+// (a sample could be off by one of 255 steps as stored, that is of a square root) they are multiplied at samples.
+void find_flat_shading(const Dress& dress, const FacingCorners& corners, const EdgeGroup& edges, int t,
+                       Shading& shading) {
     const Four f;
     static_assert(sizeof(Tint) == sizeof(LitVertex));
-    const auto albedo = [&](int k) { return hn::Load(f, &corners.tints[k]->red); };
-    const auto light = [&](int k) { return hn::Load(f, corners.vertices[k]->light); };
-    const auto at = hn::Mul(light(0), albedo(0));
+    const auto albedo = [&](int k) { return hn::Load(f, &dress.tints[corners.paints[k]].red); };
+    const auto light = [&](int k) { return hn::Load(f, dress.vertices[corners.numbers[k]].light); };
     if (!corners.face->plain) {
         const auto most = [&](auto of) { return hn::Max(of(0), hn::Max(of(1), of(2))); };
         const auto least = [&](auto of) { return hn::Min(of(0), hn::Min(of(1), of(2))); };
@@ -383,175 +464,152 @@ bool plain_shading(const FacingCorners& corners, const Interpolation& by, PlainS
         constexpr float step = 8.0f / 255;
         const auto limit = hn::Mul(darkest, hn::Set(f, step * step * full));
         const auto colors = hn::FirstN(f, 3);
-        if (!hn::AllFalse(f, hn::And(colors, hn::Gt(hn::Mul(bend, bend), limit)))) return false;
+        if (!hn::AllFalse(f, hn::And(colors, hn::Gt(hn::Mul(bend, bend), limit)))) {
+            shading.plain = by_edges(light(0), light(1), light(2), 0, edges, t);
+            shading.albedo = by_edges(albedo(0), albedo(1), albedo(2), 0, edges, t);
+            shading.kind = Shading::Kind::product;
+            return;
+        }
     }
-    const auto second = hn::Sub(hn::Mul(light(1), albedo(1)), at), third = hn::Sub(hn::Mul(light(2), albedo(2)), at);
-    const auto rest = hn::Add(hn::Mul(second, hn::Set(f, by.rest_second)), hn::Mul(third, hn::Set(f, by.rest_third)));
-    const auto scale = hn::Set(f, by.scale);
-    hn::Store(hn::Add(hn::Add(at, rest), hn::Set(f, 0.5f)), f, shading.at);
-    hn::Store(hn::Mul(second, scale), f, shading.second);
-    hn::Store(hn::Mul(third, scale), f, shading.third);
-    return true;
+    const auto color = [&](int k) { return hn::Mul(light(k), albedo(k)); };
+    shading.plain = by_edges(color(0), color(1), color(2), 0.5f, edges, t);
+    shading.kind = Shading::Kind::plain;
 }
 
-RichShading rich_shading(const PersonMesh& mesh, const FacingCorners& corners, const Slopes& slopes) {
+RichShading rich_shading(const Dress& dress, const FacingCorners& corners, const Slopes& slopes) {
     Corner all[3];
     for (int k = 0; k < 3; ++k) {
-        const LitVertex& vertex = *corners.vertices[k];
-        const Tint& tint = *corners.tints[k];
-        const glm::vec2 uv = mesh.uvs.empty() ? glm::vec2(0) : mesh.uvs[corners.numbers[k]];
+        const LitVertex& vertex = dress.vertices[corners.numbers[k]];
+        const Tint& tint = dress.tints[corners.paints[k]];
+        const glm::vec2 uv = dress.mesh.uvs.empty() ? glm::vec2(0) : dress.mesh.uvs[corners.numbers[k]];
         all[k] = {{vertex.light[0], vertex.light[1], vertex.light[2]},
                   vertex.depth,
                   {tint.red, tint.green, tint.blue},
                   uv.x,
                   uv.y};
     }
-    return rich_shading(mesh.textures, all, corners.face->layer, slopes);
+    return rich_shading(dress.mesh.textures, all, corners.face->layer, slopes);
 }
 
-// How a triangle is coloured; found out when the first of its samples is seen.
-struct Shading {
-    enum class Kind { unknown, plain, rich } kind = Kind::unknown;
-    PlainShading plain;
-    RichShading rich;
-};
-
-void find_shading(const PersonMesh& mesh, const FacingCorners& corners, const EdgeGroup& edges, int t,
-                  const Interpolation& by, Shading& shading) {
-    if (corners.face->layer == untextured && is_flat(corners) && plain_shading(corners, by, shading.plain)) {
-        shading.kind = Shading::Kind::plain;
+HWY_NOINLINE void find_shading(const Dress& dress, std::uint32_t number, const EdgeGroup& edges, int t,
+                               Shading& shading) {
+    const FacingCorners corners = corners_of(dress.mesh, number);
+    if (corners.face->layer == untextured && is_flat(dress, corners)) {
+        find_flat_shading(dress, corners, edges, t, shading);
         return;
     }
-    const auto slope = [&](const std::int32_t(&of)[group]) { return static_cast<float>(of[t]) * edges.scale[t]; };
+    const auto slope = [&](int steps) { return static_cast<float>(steps) * edges.scale[t]; };
     shading.rich = rich_shading(
-        mesh, corners, {slope(edges.along[1]), slope(edges.down[1]), slope(edges.along[2]), slope(edges.down[2])});
+        dress, corners, {slope(edges.along(1, t)), slope(edges.down(1, t)), slope(edges.along(2, t)), slope(edges.down(2, t))});
     shading.kind = Shading::Kind::rich;
 }
 
-// Blocks are looked at sixteen at a time, in a square that has them where a block has its samples.
-constexpr int square_side = sample_block_side;
-
-// Which blocks of a square lie in its first n columns, and rows; a bit each.
-struct Within {
-    std::uint32_t columns[square_side + 1], rows[square_side + 1];
-};
-constexpr Within within = [] {
-    Within made{};
-    for (int n = 0; n <= square_side; ++n) {
-        for (int i = 0; i < block_samples; ++i) {
-            made.columns[n] |= std::uint32_t{sample_x(i) < n} << i;
-            made.rows[n] |= std::uint32_t{sample_y(i) < n} << i;
-        }
+// `edge1`, `edge2`: at the samples.
+void shade(const Shading& shading, const EdgeGroup& edges, int t, VFloat edge1, VFloat edge2, FloatMask mask,
+           const Block& block, int lane) {
+    const Floats f;
+    if (shading.kind == Shading::Kind::plain) {
+        shade(shading.plain, edge1, edge2, mask, block, lane);
+    } else if (shading.kind == Shading::Kind::product) {
+        const auto half = hn::Set(f, 0.5f);
+        const auto value = [&](const PlainShading& s, int i) {
+            return between(s.at[i], s.second[i], s.third[i], edge1, edge2);
+        };
+        const auto color = [&](int i) {
+            return hn::Add(hn::Mul(value(shading.plain, i), value(shading.albedo, i)), half);
+        };
+        store(color(0), color(1), color(2), mask, block, lane);
+    } else {
+        const auto share = [&](VFloat from, float rest) {
+            return hn::Add(hn::Mul(from, hn::Set(f, edges.scale[t])), hn::Set(f, rest));
+        };
+        shade(shading.rich, share(edge1, edges.rest[0][t]), share(edge2, edges.rest[1][t]), mask, block, lane);
     }
-    return made;
-}();
-
-struct TriangleEdges {
-    VInt in_block[3][parts];  // at its samples, from its first
-    std::int32_t start[3];    // at the first sample of the first block
-    std::int32_t most[3];     // that an edge gains within a block
-};
-
-TriangleEdges triangle_edges(const EdgeGroup& edges, int t) {
-    const Ints i;
-    TriangleEdges out;
-    for (int k = 0; k < 3; ++k) {
-        const std::int32_t along = edges.along[k][t], down = edges.down[k][t];
-        for (int part = 0; part < parts; ++part) {
-            const auto x = hn::Load(i, offsets.x + part * lanes), y = hn::Load(i, offsets.y + part * lanes);
-            out.in_block[k][part] = hn::Add(hn::Mul(hn::Set(i, along), x), hn::Mul(hn::Set(i, down), y));
-        }
-        out.start[k] = edges.start[k][t];
-        out.most[k] = (sample_block_side - 1) * (std::max(along, 0) + std::max(down, 0));
-    }
-    return out;
 }
 
-// Where the edges stand at the first samples of a square's blocks; returns the blocks that the triangle may touch, a
-// bit each. `start`: at the square's first sample.
-std::uint32_t square_edges(const TriangleEdges& edges, const std::int32_t (&start)[3],
-                           std::int32_t (&at)[3][block_samples]) {
+// Edge k at samples `at` of a square. `start`: at its first.
+VInt edge_at(std::int32_t slope, std::int32_t start, const Offsets16& at, int lane) {
+    const Ints i;
+    const hn::Repartition<std::int16_t, Ints> shorts;
+    auto rest = hn::Zero(i);
+    const auto part = hn::ReorderWidenMulAccumulate(i, hn::BitCast(shorts, hn::Set(i, slope)),
+                                                    hn::Load(shorts, at.xy[lane]), hn::Zero(i), rest);
+    return hn::Add(hn::RearrangeToOddPlusEven(part, rest), hn::Set(i, start));
+}
+
+// The blocks of a square that a triangle may touch, a bit each.
+std::uint32_t touched_blocks(const EdgeGroup& edges, int t, const std::int32_t (&start)[3]) {
     const Ints i;
     std::uint32_t touched = 0;
-    for (int part = 0; part < parts; ++part) {
+    for (int lane = 0; lane < group; lane += lanes) {
         auto outside = hn::Zero(i);
-        for (int k = 0; k < 3; ++k) {
-            const auto first = hn::Add(hn::Set(i, start[k]), hn::ShiftLeft<2>(edges.in_block[k][part]));
-            hn::Store(first, i, at[k] + part * lanes);
-            outside = hn::Or(outside, hn::Add(first, hn::Set(i, edges.most[k])));
-        }
-        touched |= bits_of(hn::Gt(outside, hn::Set(i, -1))) << (part * lanes);
+        for (int k = 0; k < 3; ++k)
+            outside = hn::Or(outside, edge_at(edges.slope[k][t], start[k] + edges.most[k][t], square_offsets.blocks, lane));
+        touched |= bits_of(hn::Gt(outside, hn::Set(i, -1))) << lane;
     }
     return touched;
 }
 
-// `at`: its edges at the block's first sample. `find` fills `shading` in.
+// The blocks of a square in which anything is farther than `nearest`, a bit each. `farthest`: of its first block, in
+// rows of NearLayer::farthest_stride.
+std::uint32_t open_blocks(const float* farthest, float nearest) {
+    const Four f;
+    std::uint32_t open = 0;
+    for (int row = 0; row < square_side; ++row) {
+        const auto there = hn::LoadU(f, farthest + NearLayer::farthest_stride * row);
+        std::uint8_t bits[8] = {};
+        hn::StoreMaskBits(f, hn::Gt(hn::Set(f, nearest), there), bits);
+        open |= static_cast<std::uint32_t>(bits[0]) << (square_side * row);
+    }
+    return open;
+}
+
+// Block `b` of a square; `start`: the edges at the square's first sample. `find` fills `shading` in.
 template <typename Find>
-void fill_block(const TriangleEdges& edges, const std::int32_t (&at)[3], const Interpolation& by, const Block& block,
+void fill_block(const EdgeGroup& edges, int t, const std::int32_t (&start)[3], int b, const Block& block,
                 Shading& shading, Find find) {
     const Floats f;
     const Ints i;
     bool changed = false;
-    for (int part = 0; part < parts; ++part) {
-        const auto edge = [&](int k) { return hn::Add(edges.in_block[k][part], hn::Set(i, at[k])); };
+    for (int lane = 0; lane < group; lane += lanes) {
+        const auto edge = [&](int k) {
+            return edge_at(edges.slope[k][t], start[k], square_offsets.samples[b], lane);
+        };
         const auto edge1 = edge(1), edge2 = edge(2);
         FloatMask mask = hn::RebindMask(f, hn::Gt(hn::Or(hn::Or(edge(0), edge1), edge2), hn::Set(i, -1)));
         const auto exact1 = hn::ConvertTo(f, edge1), exact2 = hn::ConvertTo(f, edge2);
-        const auto depth = between(by.depth, by.depth_second, by.depth_third, exact1, exact2);
-        if (!nearer(depth, mask, block, part * lanes)) continue;
+        const auto depth = between(edges.depth[t], edges.depth_second[t], edges.depth_third[t], exact1, exact2);
+        if (!nearer(depth, mask, block, lane)) continue;
         changed = true;
         if (shading.kind == Shading::Kind::unknown) find();
-        if (shading.kind == Shading::Kind::plain) {
-            shade(shading.plain, exact1, exact2, mask, block, part * lanes);
-            continue;
-        }
-        const auto share = [&](VFloat from, float rest) {
-            return hn::Add(hn::Mul(from, hn::Set(f, by.scale)), hn::Set(f, rest));
-        };
-        shade(shading.rich, share(exact1, by.rest_second), share(exact2, by.rest_third), mask, block, part * lanes);
+        shade(shading, edges, t, exact1, exact2, mask, block, lane);
     }
     if (changed) update_farthest(block);
 }
 
-// Whether nothing in these blocks of the layer is farther than `nearest`.
-bool all_hidden(const NearLayer& layer, const Blocks& blocks, float nearest) {
-    for (int row = blocks.first_row; row < blocks.end_row; ++row)
-        for (int column = blocks.first_column; column < blocks.end_column; ++column)
-            if (nearest > layer.farthest(column, row)) return false;
-    return true;
-}
-
-// Triangle `t` of a group, in these blocks of the layer. `nearest`: that any of its samples may be.
-void fill_triangle(const PersonMesh& mesh, const EdgeGroup& group_edges, int t, const FacingCorners& corners,
-                   float nearest, const Blocks& blocks, NearLayer& layer) {
-    const Interpolation by = interpolation(group_edges, t, corners);
-    const TriangleEdges edges = triangle_edges(group_edges, t);
-    const int columns = blocks.end_column - blocks.first_column, rows = blocks.end_row - blocks.first_row;
+// Triangle `t` of a group. `column`, `row`: of its first block in the layer.
+void fill_triangle(const Dress& dress, const EdgeGroup& edges, int t, std::uint32_t face, int column, int row,
+                   NearLayer& layer) {
+    const int columns = edges.end_column[t] - edges.first_column[t], rows = edges.end_row[t] - edges.first_row[t];
     Shading shading;
-    alignas(64) std::int32_t at[3][block_samples];
-    const auto fill_square = [&](int column, int row, const std::int32_t(&start)[3]) {
-        std::uint32_t touched = square_edges(edges, start, at) &
-                                within.columns[std::min(columns - column, square_side)] &
-                                within.rows[std::min(rows - row, square_side)];
-        for (; touched != 0; touched &= touched - 1) {
-            const int i = std::countr_zero(touched);
-            const int x = blocks.first_column + column + sample_x(i), y = blocks.first_row + row + sample_y(i);
-            if (!(nearest > layer.farthest(x, y))) continue;
-            fill_block(edges, {at[0][i], at[1][i], at[2][i]}, by, layer.block(x, y), shading,
-                       [&] { find_shading(mesh, corners, group_edges, t, by, shading); });
+    const auto fill_square = [&](int x, int y, const std::int32_t(&start)[3]) {
+        std::uint32_t blocks = within.columns[std::min(columns - x, square_side)] &
+                               within.rows[std::min(rows - y, square_side)] &
+                               open_blocks(layer.farthest(column + x, row + y), edges.nearest[t]);
+        if (blocks == 0) return;
+        blocks &= touched_blocks(edges, t, start);
+        for (; blocks != 0; blocks &= blocks - 1) {
+            const int b = std::countr_zero(blocks);
+            fill_block(edges, t, start, b, layer.block(column + x + b % square_side, row + y + b / square_side),
+                       shading, [&] { find_shading(dress, face, edges, t, shading); });
         }
     };
-    if (columns <= square_side && rows <= square_side) {
-        fill_square(0, 0, edges.start);
-        return;
-    }
-    for (int row = 0; row < rows; row += square_side) {
-        for (int column = 0; column < columns; column += square_side) {
+    for (int y = 0; y < rows; y += square_side) {
+        for (int x = 0; x < columns; x += square_side) {
             std::int32_t start[3];
             for (int k = 0; k < 3; ++k)
-                start[k] =
-                    edges.start[k] + sample_block_side * (column * group_edges.along[k][t] + row * group_edges.down[k][t]);
-            fill_square(column, row, start);
+                start[k] = edges.start[k][t] + sample_block_side * (x * edges.along(k, t) + y * edges.down(k, t));
+            fill_square(x, y, start);
         }
     }
 }
@@ -562,19 +620,17 @@ void fill_person(const PersonMesh& mesh, std::span<const FacingTriangle> facing,
     const int origin_row = origin_y / sample_block_side - layer.blocks().y0;
     const Blocks tile{-origin_column, layer.blocks().x1 - layer.blocks().x0 - origin_column, -origin_row,
                       layer.blocks().y1 - layer.blocks().y0 - origin_row};
+    const Dress dress{mesh, vertices, tints};
     EdgeGroup edges;
     for (std::size_t first = 0; first < facing.size(); first += group) {
-        std::uint32_t alive = set_up(facing.data() + first, tile, edges);
+        std::uint32_t alive = set_up_edges(facing.data() + first, tile, edges);
         if (facing.size() - first < group) alive &= (1u << (facing.size() - first)) - 1;
+        if (alive == 0) continue;
+        set_up_depths(mesh, facing.data() + first, alive, vertices, edges);
         for (; alive != 0; alive &= alive - 1) {
             const int t = std::countr_zero(alive);
-            const FacingCorners corners = corners_of(mesh, facing[first + t].face, vertices, tints);
-            const Blocks blocks{origin_column + edges.first_column[t], origin_column + edges.end_column[t],
-                                origin_row + edges.first_row[t], origin_row + edges.end_row[t]};
-            constexpr float rounding = 1.0f + 1e-6f;
-            const float nearest_sample = nearest(corners) * rounding;
-            if (!all_hidden(layer, blocks, nearest_sample))
-                fill_triangle(mesh, edges, t, corners, nearest_sample, blocks, layer);
+            fill_triangle(dress, edges, t, facing[first + t].face, origin_column + edges.first_column[t],
+                          origin_row + edges.first_row[t], layer);
         }
     }
 }
