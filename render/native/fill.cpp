@@ -550,16 +550,26 @@ std::uint32_t touched_blocks(const EdgeGroup& edges, int t, const std::int32_t (
     return touched;
 }
 
+// So many rows of a square as fit.
+template <typename D>
+hn::Vec<D> load_rows(D d, const float* first) {
+    constexpr int rows = static_cast<int>(hn::MaxLanes(D())) / square_side;
+    if constexpr (rows == 1) {
+        return hn::LoadU(d, first);
+    } else {
+        const hn::Half<D> half;
+        return hn::Combine(d, load_rows(half, first + NearLayer::farthest_stride * (rows / 2)), load_rows(half, first));
+    }
+}
+
 // The blocks of a square in which anything is farther than `nearest`, a bit each. `farthest`: of its first block, in
 // rows of NearLayer::farthest_stride.
 std::uint32_t open_blocks(const float* farthest, float nearest) {
-    const Four f;
+    const Floats f;
     std::uint32_t open = 0;
-    for (int row = 0; row < square_side; ++row) {
-        const auto there = hn::LoadU(f, farthest + NearLayer::farthest_stride * row);
-        std::uint8_t bits[8] = {};
-        hn::StoreMaskBits(f, hn::Gt(hn::Set(f, nearest), there), bits);
-        open |= static_cast<std::uint32_t>(bits[0]) << (square_side * row);
+    for (int lane = 0; lane < group; lane += lanes) {
+        const auto there = load_rows(f, farthest + NearLayer::farthest_stride * (lane / square_side));
+        open |= bits_of(hn::RebindMask(Ints(), hn::Gt(hn::Set(f, nearest), there))) << lane;
     }
     return open;
 }
@@ -588,49 +598,120 @@ void fill_block(const EdgeGroup& edges, int t, const std::int32_t (&start)[3], i
 }
 
 // Triangle `t` of a group. `column`, `row`: of its first block in the layer.
-void fill_triangle(const Dress& dress, const EdgeGroup& edges, int t, std::uint32_t face, int column, int row,
-                   NearLayer& layer) {
-    const int columns = edges.end_column[t] - edges.first_column[t], rows = edges.end_row[t] - edges.first_row[t];
+struct Filling {
+    const Dress& dress;
+    const EdgeGroup& edges;
+    int t;
+    std::uint32_t face;
+    int column, row;
+};
+
+// Blocks `some` of the square that begins x to the right and y below of the first; `start`: the edges there.
+void fill_blocks(const Filling& by, int x, int y, const std::int32_t (&start)[3], std::uint32_t some, Shading& shading,
+                 NearLayer& layer) {
+    for (; some != 0; some &= some - 1) {
+        const int b = std::countr_zero(some);
+        fill_block(by.edges, by.t, start, b,
+                   layer.block(by.column + x + b % square_side, by.row + y + b / square_side), shading,
+                   [&] { find_shading(by.dress, by.face, by.edges, by.t, shading); });
+    }
+}
+
+// Of more blocks than a square has.
+HWY_NOINLINE void fill_large(const Filling& by, int columns, int rows, NearLayer& layer) {
+    const EdgeGroup& edges = by.edges;
+    const int t = by.t;
     Shading shading;
-    const auto fill_square = [&](int x, int y, const std::int32_t(&start)[3]) {
-        std::uint32_t blocks = within.columns[std::min(columns - x, square_side)] &
-                               within.rows[std::min(rows - y, square_side)] &
-                               open_blocks(layer.farthest(column + x, row + y), edges.nearest[t]);
-        if (blocks == 0) return;
-        blocks &= touched_blocks(edges, t, start);
-        for (; blocks != 0; blocks &= blocks - 1) {
-            const int b = std::countr_zero(blocks);
-            fill_block(edges, t, start, b, layer.block(column + x + b % square_side, row + y + b / square_side),
-                       shading, [&] { find_shading(dress, face, edges, t, shading); });
-        }
-    };
     for (int y = 0; y < rows; y += square_side) {
         for (int x = 0; x < columns; x += square_side) {
+            const std::uint32_t open =
+                within.columns[std::min(columns - x, square_side)] & within.rows[std::min(rows - y, square_side)] &
+                open_blocks(layer.farthest(by.column + x, by.row + y), edges.nearest[t]);
+            if (open == 0) continue;
             std::int32_t start[3];
             for (int k = 0; k < 3; ++k)
                 start[k] = edges.start[k][t] + sample_block_side * (x * edges.along(k, t) + y * edges.down(k, t));
-            fill_square(x, y, start);
+            fill_blocks(by, x, y, start, open & touched_blocks(edges, t, start), shading, layer);
         }
     }
 }
 
-void fill_person(const PersonMesh& mesh, std::span<const FacingTriangle> facing, int origin_x, int origin_y,
-                 const LitVertex* vertices, const Tint* tints, NearLayer& layer) {
-    const int origin_column = origin_x / sample_block_side - layer.blocks().x0;
-    const int origin_row = origin_y / sample_block_side - layer.blocks().y0;
-    const Blocks tile{-origin_column, layer.blocks().x1 - layer.blocks().x0 - origin_column, -origin_row,
-                      layer.blocks().y1 - layer.blocks().y0 - origin_row};
-    const Dress dress{mesh, vertices, tints};
+HWY_NOINLINE void fill_small(const Filling& by, const std::int32_t (&start)[3], std::uint32_t some, NearLayer& layer) {
+    Shading shading;
+    fill_blocks(by, 0, 0, start, some, shading, layer);
+}
+
+void fill_triangle(const Filling& by, NearLayer& layer) {
+    const EdgeGroup& edges = by.edges;
+    const int t = by.t;
+    const int columns = edges.end_column[t] - edges.first_column[t], rows = edges.end_row[t] - edges.first_row[t];
+    if (columns > square_side || rows > square_side) return fill_large(by, columns, rows, layer);
+    const std::uint32_t open = within.columns[columns] & within.rows[rows] &
+                               open_blocks(layer.farthest(by.column, by.row), edges.nearest[t]);
+    if (open == 0) return;
+    const std::int32_t start[3] = {edges.start[0][t], edges.start[1][t], edges.start[2][t]};
+    const std::uint32_t some = open & touched_blocks(edges, t, start);
+    if (some != 0) fill_small(by, start, some, layer);
+}
+
+// The least rectangle with all of these blocks of the layer in which anything is farther than `nearest`.
+Blocks seen_blocks(const NearLayer& layer, const Blocks& among, float nearest) {
+    const Floats f;
+    std::uint64_t columns = 0;
+    int first_row = among.end_row, end_row = among.first_row;
+    const int count = among.end_column - among.first_column;
+    const std::uint64_t all = count < 64 ? (std::uint64_t{1} << count) - 1 : ~std::uint64_t{0};
+    for (int row = among.first_row; row < among.end_row; ++row) {
+        const float* farthest = layer.farthest(among.first_column, row);
+        std::uint64_t open = 0;
+        for (int x = 0; x < count; x += lanes) {
+            const auto is_open = hn::Gt(hn::Set(f, nearest), hn::LoadU(f, farthest + x));
+            open |= std::uint64_t{bits_of(hn::RebindMask(Ints(), is_open))} << x;
+        }
+        open &= all;
+        if (open == 0) continue;
+        columns |= open;
+        first_row = std::min(first_row, row);
+        end_row = row + 1;
+    }
+    if (columns == 0) return {};
+    return {among.first_column + std::countr_zero(columns), among.first_column + 64 - std::countl_zero(columns),
+            first_row, end_row};
+}
+
+Blocks blocks_of(const Rect& pixels, const NearLayer& layer) {
+    const auto first = [](int at, int from) { return std::max(at / sample_block_pixels - from, 0); };
+    const auto end = [](int at, int from, int to) {
+        return std::min((at + sample_block_pixels - 1) / sample_block_pixels, to) - from;
+    };
+    const Rect tile = layer.blocks();
+    return {first(pixels.x0, tile.x0), end(pixels.x1, tile.x0, tile.x1), first(pixels.y0, tile.y0),
+            end(pixels.y1, tile.y0, tile.y1)};
+}
+
+void fill_person(const PersonMesh& mesh, const PersonOnGrid& person, NearLayer& layer) {
+    const Blocks all = blocks_of(person.pixels, layer);
+    if (all.first_column >= all.end_column || all.first_row >= all.end_row) return;
+    constexpr float rounding = 1.0f + 1e-6f;
+    const Blocks seen = seen_blocks(layer, all, person.nearest * rounding);
+    if (seen.first_column >= seen.end_column) return;
+    const int origin_column = person.origin_x / sample_block_side - layer.blocks().x0;
+    const int origin_row = person.origin_y / sample_block_side - layer.blocks().y0;
+    const Blocks within_person{seen.first_column - origin_column, seen.end_column - origin_column,
+                               seen.first_row - origin_row, seen.end_row - origin_row};
+    const Dress dress{mesh, person.vertices, person.tints};
     EdgeGroup edges;
-    for (std::size_t first = 0; first < facing.size(); first += group) {
-        std::uint32_t alive = set_up_edges(facing.data() + first, tile, edges);
-        if (facing.size() - first < group) alive &= (1u << (facing.size() - first)) - 1;
+    for (std::size_t first = 0; first < person.facing.size(); first += group) {
+        const FacingTriangle* facing = person.facing.data() + first;
+        std::uint32_t alive = set_up_edges(facing, within_person, edges);
+        if (person.facing.size() - first < group) alive &= (1u << (person.facing.size() - first)) - 1;
         if (alive == 0) continue;
-        set_up_depths(mesh, facing.data() + first, alive, vertices, edges);
+        set_up_depths(mesh, facing, alive, person.vertices, edges);
         for (; alive != 0; alive &= alive - 1) {
             const int t = std::countr_zero(alive);
-            fill_triangle(dress, edges, t, facing[first + t].face, origin_column + edges.first_column[t],
-                          origin_row + edges.first_row[t], layer);
+            fill_triangle({dress, edges, t, facing[t].face, origin_column + edges.first_column[t],
+                           origin_row + edges.first_row[t]},
+                          layer);
         }
     }
 }
@@ -728,9 +809,8 @@ namespace render::native {
 HWY_EXPORT(fill_person);
 HWY_EXPORT(fill_wide_all);
 
-void fill(const PersonMesh& mesh, std::span<const FacingTriangle> facing, int origin_x, int origin_y,
-          const LitVertex* vertices, const Tint* tints, NearLayer& layer) {
-    HWY_DYNAMIC_DISPATCH(fill_person)(mesh, facing, origin_x, origin_y, vertices, tints, layer);
+void fill(const PersonMesh& mesh, const PersonOnGrid& person, NearLayer& layer) {
+    HWY_DYNAMIC_DISPATCH(fill_person)(mesh, person, layer);
 }
 
 void fill(const TextureLayers& textures, std::span<const WideTriangle> triangles, NearLayer& layer) {

@@ -33,10 +33,17 @@ struct WideTriangle {
 };
 inline constexpr std::int32_t wide_reach = 1 << 21;
 
-// `facing` can be read to the end of its last group. `origin_x`, `origin_y`: the person's [samples], at a block's
-// corner. `tints`: one a paint.
-void fill(const PersonMesh& mesh, std::span<const FacingTriangle> facing, int origin_x, int origin_y,
-          const LitVertex* vertices, const Tint* tints, NearLayer& layer);
+// A person whose triangles fit 32-bit edges.
+struct PersonOnGrid {
+    std::span<const FacingTriangle> facing;  // can be read to the end of its last group
+    int origin_x, origin_y;                  // of its corners: [samples], at a block's corner
+    Rect pixels;                             // of the picture, that they may touch
+    float nearest;                           // of the vertices' depths
+    const LitVertex* vertices;
+    const Tint* tints;  // one a paint
+};
+
+void fill(const PersonMesh& mesh, const PersonOnGrid& person, NearLayer& layer);
 
 void fill(const TextureLayers& textures, std::span<const WideTriangle> triangles, NearLayer& layer);
 

@@ -74,7 +74,8 @@ public:
     }
 
     // That block's farthest, and those of blocks to the right and below, in rows of farthest_stride; negative: nothing
-    // was drawn into it yet. A square of four by four can be read from any of the tile's blocks on.
+    // was drawn into it yet. A row can be read sixteen
+    // blocks and a square of four by four blocks beyond the tile's.
     const float* farthest(int column, int row) const { return &farthest_[number_of(column, row)]; }
     static constexpr int farthest_stride = tile_side / sample_block_pixels;
 
@@ -93,7 +94,7 @@ private:
     Rect blocks_, touched_;
     std::array<std::uint64_t, blocks_across> begun_{};             // a row of blocks each
     // Of each block: all that hidden triangles look at.
-    std::array<float, blocks_across*(blocks_across + 3) + 3> farthest_{};
+    std::array<float, blocks_across*(blocks_across + 3) + 16> farthest_{};
     // Of samples, block by block. Apart, since most of what is drawn is hidden and looks no further than depths.
     hwy::AlignedFreeUniquePtr<float[]> sample_depth_;
     hwy::AlignedFreeUniquePtr<std::uint32_t[]> red_green_, blue_;

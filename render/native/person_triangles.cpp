@@ -195,7 +195,9 @@ Rect PersonTriangles::place_on_grid(const View& view, const PersonMesh& mesh, co
         packed[v] = (x & 0xffffu) | y << 16;
     }
     facing_count_ = find_facing(mesh, packed, facing_.get());
-    return facing_count_ == 0 ? Rect{} : pixels_of(view, extent);
+    pixels_ = pixels_of(view, extent);
+    nearest_ = extent.nearest;
+    return facing_count_ == 0 ? Rect{} : pixels_;
 }
 
 Rect PersonTriangles::place_anywhere(const View& view, const PersonMesh& mesh, const Placement& placement,
@@ -224,7 +226,10 @@ Rect PersonTriangles::place_anywhere(const View& view, const PersonMesh& mesh, c
 
 void PersonTriangles::draw(const PersonMesh& mesh, NearLayer& layer) const {
     if (wide_.empty())
-        fill(mesh, std::span(facing_.get(), facing_count_), origin_x_, origin_y_, lit_.get(), tints_.get(), layer);
+        fill(mesh,
+             {std::span(facing_.get(), facing_count_), origin_x_, origin_y_, pixels_, nearest_, lit_.get(),
+              tints_.get()},
+             layer);
     else
         fill(mesh.textures, wide_, layer);
 }

@@ -40,7 +40,9 @@ private:
     hwy::AlignedFreeUniquePtr<Tint[]> tints_;
     hwy::AlignedFreeUniquePtr<FacingTriangle[]> facing_;
     std::uint32_t facing_count_ = 0;
-    int origin_x_ = 0, origin_y_ = 0;  // [samples]
+    int origin_x_ = 0, origin_y_ = 0;  // PersonOnGrid's
+    Rect pixels_;
+    float nearest_ = 0;
     std::vector<WideTriangle> wide_;   // instead of facing_, of who is too large or too near for it
 };
 

@@ -86,28 +86,33 @@ void Renderer::draw(const Frame& frame) {
     has_picture_ = true;
 }
 
-// By rising depth, stable: a counting sort in two passes over the bits of the depth, which rise with it.
+// Near ones and others, the nearest first.
 void Renderer::part_people(const Frame& frame) {
-    constexpr int digit_bits = 11;
-    constexpr std::uint32_t digits = 1u << digit_bits;
     near_people_.clear();
-    unsorted_.clear();
+    point_people_.clear();
     for (const Person& person : frame.people) {
         const bool is_mesh = figures::natively().representations[person.representation].is_mesh;
-        (is_mesh ? near_people_ : unsorted_).push_back(&person);
+        (is_mesh ? near_people_ : point_people_).push_back(&person);
     }
-    point_people_.resize(unsorted_.size());
+    sort_by_depth(near_people_);
+    sort_by_depth(point_people_);
+}
+
+// Stable: a counting sort in two passes over the bits of the depth, which rise with it.
+void Renderer::sort_by_depth(std::vector<const Person*>& people) {
+    constexpr int digit_bits = 11;
+    constexpr std::uint32_t digits = 1u << digit_bits;
+    unsorted_.resize(people.size());
     for (const int shift : {31 - 2 * digit_bits, 31 - digit_bits}) {
         counts_.assign(digits + 1, 0);
         const auto digit = [&](const Person* person) {
             return std::bit_cast<std::uint32_t>(person->depth) >> shift & (digits - 1);
         };
+        unsorted_.swap(people);
         for (const Person* person : unsorted_) ++counts_[digit(person) + 1];
         for (std::uint32_t i = 0; i < digits; ++i) counts_[i + 1] += counts_[i];
-        for (const Person* person : unsorted_) point_people_[counts_[digit(person)]++] = person;
-        unsorted_.swap(point_people_);
+        for (const Person* person : unsorted_) people[counts_[digit(person)]++] = person;
     }
-    unsorted_.swap(point_people_);
 }
 
 void Renderer::fill_lists() {

@@ -55,6 +55,7 @@ private:
 
     bool is_drawn_already(const Frame& frame) const;
     void part_people(const Frame& frame);
+    void sort_by_depth(std::vector<const Person*>& people);
     void fill_lists();
     void draw_tile(std::size_t index);
     float draw_near(std::size_t tile, Easel& easel) const;

@@ -60,6 +60,7 @@ VInt snapped(VFloat position) {
 
 struct Bounds {
     VInt min_x, min_y, max_x, max_y;
+    VFloat nearest;
 };
 
 // One group, a vector at a time.
@@ -83,8 +84,9 @@ void place_group(const Placement& placement, const Daylight& daylight, const std
             snapped(hn::Add(hn::Mul(apply(placement.down, packed), over_depth), hn::Set(f, placement.center_y)));
         hn::StoreU(x, i, across + lane);
         hn::StoreU(y, i, down + lane);
+        const auto near = hn::Mul(over_depth, hn::Set(f, near_plane));
         bounds = {hn::Min(bounds.min_x, x), hn::Min(bounds.min_y, y), hn::Max(bounds.max_x, x),
-                  hn::Max(bounds.max_y, y)};
+                  hn::Max(bounds.max_y, y), hn::Max(bounds.nearest, near)};
 
         const auto signed_normal = hn::BitCast(i, z_normal);
         Vector3 normal = unfold(hn::ShiftRight<24>(hn::ShiftLeft<8>(signed_normal)), hn::ShiftRight<24>(signed_normal));
@@ -103,8 +105,7 @@ void place_group(const Placement& placement, const Daylight& daylight, const std
                 hn::Add(hn::Set(f, daylight.level[c]), hn::Mul(normal.y, hn::Set(f, daylight.slope[c])));
             return hn::Add(around, hn::Mul(facing_sun, hn::Set(f, daylight.sun[c])));
         };
-        hn::StoreInterleaved4(light(0), light(1), light(2), hn::Mul(over_depth, hn::Set(f, near_plane)), f,
-                              lit[lane].light);
+        hn::StoreInterleaved4(light(0), light(1), light(2), near, f, lit[lane].light);
     }
 }
 
@@ -112,7 +113,7 @@ Extent place_all(const Placement& placement, const Daylight& daylight, std::span
                  bool double_sided, LitVertex* lit, std::int32_t* across, std::int32_t* down) {
     const Ints i;
     const auto most = hn::Set(i, INT32_MAX), least = hn::Set(i, INT32_MIN);
-    Bounds bounds{most, most, least, least};
+    Bounds bounds{most, most, least, least, hn::Zero(Floats())};
     for (std::size_t first = 0; first < posed.size(); first += group) {
         // The last group is filled up with its last vertex.
         motion::PosedVertex rest[group];
@@ -125,7 +126,8 @@ Extent place_all(const Placement& placement, const Daylight& daylight, std::span
                     across + first, down + first, bounds);
     }
     return {hn::GetLane(hn::MinOfLanes(i, bounds.min_x)), hn::GetLane(hn::MinOfLanes(i, bounds.min_y)),
-            hn::GetLane(hn::MaxOfLanes(i, bounds.max_x)), hn::GetLane(hn::MaxOfLanes(i, bounds.max_y))};
+            hn::GetLane(hn::MaxOfLanes(i, bounds.max_x)), hn::GetLane(hn::MaxOfLanes(i, bounds.max_y)),
+            hn::GetLane(hn::MaxOfLanes(Floats(), bounds.nearest))};
 }
 
 // Whether a sample's row or column lies in [least, most] on the grid; samples lie in the middle of their squares.

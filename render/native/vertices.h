@@ -42,6 +42,7 @@ struct alignas(16) LitVertex {
 // [grid steps] from the picture's corner; empty: min > max.
 struct Extent {
     std::int32_t min_x, min_y, max_x, max_y;
+    float nearest = 0;  // the largest depth of a LitVertex
 };
 
 // Lights the vertices, and places them where `across` and `down` say. All three outputs have room for whole groups.

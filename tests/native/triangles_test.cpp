@@ -333,6 +333,33 @@ TEST(NativeTriangles, AreTheSameBitsInAnyTiles) {
         EXPECT_TRUE(company.draw({.tile_width = width, .tile_height = height}) == expected) << width << "x" << height;
 }
 
+// From the back nobody is hidden by who was drawn before; from the front nearly everybody is, in part or wholly.
+TEST(NativeTriangles, AreTheSameBitsFromFrontToBackAndFromBackToFront) {
+    const Actor person(scene::make_person(), {0, 4});
+    const std::vector figures{person.figure()};
+    std::mt19937 random(3);
+    std::vector<render::Person> crowd;
+    for (int i = 0; i < 250; ++i) {
+        const double depth = draw_number(random, 2, 30);
+        const glm::vec3 at(draw_number(random, -0.6, 0.6) * depth, draw_number(random, -0.6, 0) * depth, -depth);
+        crowd.push_back(person_at(at, 1, draw_number(random, 0, 6), static_cast<std::uint32_t>(i)));
+    }
+    std::ranges::sort(crowd, {}, [](const render::Person& p) { return -p.instance.position.z; });
+    const tests::MeshPeople front_first(crowd);
+    std::ranges::reverse(crowd);
+    const tests::MeshPeople back_first(crowd);
+    const render::View view = view_of(301, 203);
+    for (const float depth : {0.0f, render::near_plane / 12}) {
+        const render::native::BackdropPicture behind = tests::backdrop(301, 203, depth);
+        TrianglePeople people(figures, {});
+        const tests::Layer expected = tests::draw(people, view, back_first.pointers, behind);
+        EXPECT_TRUE(tests::draw(people, view, front_first.pointers, behind) == expected) << depth;
+        EXPECT_TRUE(tests::draw(people, view, front_first.pointers, behind, {.tile_width = 34, .tile_height = 18}) ==
+                    expected)
+            << depth;
+    }
+}
+
 TEST(NativeTriangles, StayInTheirBounds) {
     const Company company;
     for (const render::Person* person : company.whom->pointers) {
