@@ -121,8 +121,8 @@ void Canvas::use(sfsm::Drawing drawing, const Stage& stage, const StadiumOptions
         timer_ = std::make_unique<render::gl::FrameTimer>(*device_);
         return;
     }
-    auto native = std::make_unique<render::native::Renderer>(place.structure, place.ground, place.light, stage.figures(),
-                                                             options.width, options.height);
+    auto native = std::make_unique<render::native::Renderer>(place.structure, place.ground, place.light,
+                                                             stage.figures(), options.width, options.height);
     native_ = native.get();
     renderer_ = std::move(native);
     timer_ = std::make_unique<render::FrameClock>();

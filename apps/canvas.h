@@ -27,8 +27,8 @@ public:
     // The one whose point models serve all that may be drawn by.
     const figures::Way& models_way() const;
 
-    // Makes the renderer. Where OpenGL runs on a GPU and nothing was asked for, both ways draw a small crowd for a moment
-    // and the faster is kept. `stage` must outlive this.
+    // Makes the renderer. Where OpenGL runs on a GPU and nothing was asked for, both ways draw a small crowd for a
+    // moment and the faster is kept. `stage` must outlive this.
     void set_up(const Stage& stage, const StadiumOptions& options);
 
     // After set_up().

@@ -237,9 +237,10 @@ private:
         const sfsm::TraceRow& row = rows_.back();
         const sfsm::Decision& decision = row.decision;
         char text[200];
-        int length = std::snprintf(text, sizeof text, "Grandstand  %s  %.1f / %.1f ms  %lld people  state %d",
-                                   sfsm::name_of(canvas_.way().drawing).data(), last_ms_, row.target_ms, static_cast<long long>(row.work[sfsm::WorkKind::person]),
-                                   static_cast<int>(*row.drawn_state));
+        int length =
+            std::snprintf(text, sizeof text, "Grandstand  %s  %.1f / %.1f ms  %lld people  state %d",
+                          sfsm::name_of(canvas_.way().drawing).data(), last_ms_, row.target_ms,
+                          static_cast<long long>(row.work[sfsm::WorkKind::person]), static_cast<int>(*row.drawn_state));
         if (decision.state != sfsm::State::original)
             length += std::snprintf(text + length, sizeof text - length, "  D %.0f m", decision.motion_distance);
         if (decision.state == sfsm::State::points)

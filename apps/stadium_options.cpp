@@ -113,7 +113,8 @@ void add_output_options(CLI::App& app, StadiumOptions& options) {
         ->default_str("1280x720");
     app.add_option_function<std::string>(
            "--draw", [&](const std::string& name) { set_drawing(options, name); },
-           "gl: by OpenGL 4.5; native: by the processor alone, OpenGL only shows it; auto: native where OpenGL is software "
+           "gl: by OpenGL 4.5; native: by the processor alone, OpenGL only shows it; auto: native where OpenGL is "
+           "software "
            "or missing, on a GPU the faster of the two")
         ->default_str("auto");
     app.add_flag("--headless", options.headless, "No window, even if there is a display");

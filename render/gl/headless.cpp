@@ -76,8 +76,7 @@ std::optional<EGLContext> try_context(EGLDisplay display, std::string& why) {
 HeadlessContext::HeadlessContext() {
     // Where the library is missing, the first call through epoxy would end the program.
     void* library = dlopen("libEGL.so.1", RTLD_LAZY | RTLD_LOCAL);
-    if (!library)
-        throw std::runtime_error("EGL: found no libEGL.so.1, expected one with a driver of OpenGL 4.5 core");
+    if (!library) throw std::runtime_error("EGL: found no libEGL.so.1, expected one with a driver of OpenGL 4.5 core");
     dlclose(library);
     std::string why = "no EGL device and no surfaceless platform";
     for (EGLDisplay display : candidate_displays()) {

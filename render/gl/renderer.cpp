@@ -101,8 +101,7 @@ void Renderer::draw(const Frame& frame) {
 }
 
 void Renderer::upload_frame(const View& view, double splat_size) {
-    const FrameBlock frame =
-        make_frame_block(view, ground_, light_, std::max(1.0f, static_cast<float>(splat_size)));
+    const FrameBlock frame = make_frame_block(view, ground_, light_, std::max(1.0f, static_cast<float>(splat_size)));
     glNamedBufferSubData(frame_block_.name(), 0, sizeof frame, &frame);
     glBindBufferBase(GL_UNIFORM_BUFFER, Frame_binding, frame_block_.name());
 }

@@ -25,10 +25,10 @@ inline constexpr std::int16_t closed = pixel_full / 4096;
 // A row of a patch of cells as large as pixels, and what it is laid into, from the same pixel on.
 struct CoverRow {
     std::int16_t* cells;
-    std::uint64_t used;   // groups of cells
+    std::uint64_t used;  // groups of cells
     Cover* cover;
     Flock* flock;
-    int first, last;      // only these cells are in the tile
+    int first, last;  // only these cells are in the tile
     // near_plane / view depth at each pixel: what hides people behind it; and, if not null, what people must be behind.
     const float* hidden_behind;
     const float* shown_behind;
@@ -53,7 +53,8 @@ constexpr hn::Rebind<std::uint16_t, decltype(floats)> shorts;
 using Floats = hn::Vec<decltype(floats)>;
 constexpr int most_lanes = 16;
 
-// How far back each pixel lets people be seen, in their reach from their middle, 32767 = 1. Outside of the tile nowhere.
+// How far back each pixel lets people be seen, in their reach from their middle, 32767 = 1. Outside of the tile
+// nowhere.
 void find_limits(const SplatPerson& person, const CoverRow& row, const float* depth, std::int16_t* limits) {
     constexpr std::int16_t nowhere = -32768;
     const hn::Rebind<std::int16_t, decltype(floats)> out;
@@ -69,7 +70,9 @@ void find_limits(const SplatPerson& person, const CoverRow& row, const float* de
     std::fill(limits + row.last, limits + row.last + group_cells, nowhere);
 }
 
-Vector all(int value) { return hn::Set(cells, static_cast<std::int16_t>(value)); }
+Vector all(int value) {
+    return hn::Set(cells, static_cast<std::int16_t>(value));
+}
 
 // One of the four 16-bit lanes of each pixel, in all four.
 template <int lane>
@@ -88,8 +91,8 @@ Vector spread_four(const std::int16_t* numbers, int pixel) {
     return hn::TableLookupBytes(hn::LoadDup128(cells, numbers), hn::BitCast(cells, hn::LoadU(bytes, from + 8 * pixel)));
 }
 
-// 1 / coverage where that is over 1, 32767 = 1; over 2 it counts as 2. Newton's step for 1 / x, twice, from the straight
-// line that is least off over [1, 2], 24/17 - 8/17 x.
+// 1 / coverage where that is over 1, 32767 = 1; over 2 it counts as 2. Newton's step for 1 / x, twice, from the
+// straight line that is least off over [1, 2], 24/17 - 8/17 x.
 Vector thinning(Vector share) {
     const auto x = hn::Min(hn::Max(share, all(cell_full)), all(2 * cell_full - 1));
     auto y = hn::Sub(all(30840), hn::MulFixedPoint15(all(15420), hn::ShiftLeft<2>(hn::Sub(x, all(cell_full)))));
@@ -100,21 +103,32 @@ Vector thinning(Vector share) {
     return y;
 }
 
-Floats part(hn::Vec<decltype(shorts)> fixed) { return hn::ConvertTo(floats, hn::PromoteTo(ints, fixed)); }
+Floats part(hn::Vec<decltype(shorts)> fixed) {
+    return hn::ConvertTo(floats, hn::PromoteTo(ints, fixed));
+}
 
 // Of four cells the mean by how far a pixel is from them: `across` and `down`, 32767 = 1.
 void mix(const std::int16_t* cell, int stride, std::int16_t across, std::int16_t down, std::int16_t* to) {
     const hn::FixedTag<std::int16_t, 8> lanes;
-    const auto between = [&](auto a, auto b, std::int16_t share) HWY_ATTR {
-        return hn::Add(a, hn::MulFixedPoint15(hn::Sub(b, a), hn::Set(lanes, share)));
-    };
-    const auto row = [&](const std::int16_t* at) HWY_ATTR {
-        return between(hn::Load(lanes, at), hn::Load(lanes, at + 8), across);
-    };
+    const auto between = [&](auto a, auto b, std::int16_t share)
+                             HWY_ATTR { return hn::Add(a, hn::MulFixedPoint15(hn::Sub(b, a), hn::Set(lanes, share))); };
+    const auto row = [&](const std::int16_t* at)
+                         HWY_ATTR { return between(hn::Load(lanes, at), hn::Load(lanes, at + 8), across); };
     hn::Store(between(row(cell), row(cell + 8 * stride), down), lanes, to);
 }
 
 }  // namespace
+
+// Makes cells that are covered more than once cover themselves once. `count`: of whole groups.
+void ThinCells(std::int16_t* from, int count) {
+    const hn::FixedTag<std::int16_t, 8> lanes;
+    for (std::int16_t* cell = from; cell < from + 8 * count; cell += 8) {
+        if (cell[3] <= cell_full) continue;
+        alignas(64) std::int16_t spread[most_lanes];
+        hn::Store(thinning(all(cell[3])), cells, spread);
+        hn::Store(hn::MulFixedPoint15(hn::Load(lanes, cell), hn::Set(lanes, spread[0])), lanes, cell);
+    }
+}
 
 // A row of pixels out of a patch of larger cells: `x0` is the first of `count`, `y` the row. Returns which groups of
 // pixels aren't all 0.
@@ -175,9 +189,12 @@ void LayRow(const SplatPerson& person, const CoverRow& row) {
                                  hn::Gt(open, all(closed)));
             if (row.shown_behind)
                 shown = hn::AndNot(hn::Lt(back, hn::MulFixedPoint15(share, spread_four(begins + group, i))), shown);
-            hn::StoreU(hn::SaturatedAdd(there, hn::IfThenElseZero(shown, hn::MulFixedPoint15(unit, before))), cells, to);
+            hn::StoreU(hn::SaturatedAdd(there, hn::IfThenElseZero(shown, hn::MulFixedPoint15(unit, before))), cells,
+                       to);
             const auto joined = hn::IfThenElse(beside, spread<1>(others), depth);
-            hn::StoreU(hn::IfThenElse(hn::And(shown, hn::Gt(share, hn::Zero(cells))), hn::OddEven(joined, before), others), cells, flock);
+            hn::StoreU(
+                hn::IfThenElse(hn::And(shown, hn::Gt(share, hn::Zero(cells))), hn::OddEven(joined, before), others),
+                cells, flock);
         }
     }
 }
@@ -220,6 +237,7 @@ HWY_AFTER_NAMESPACE();
 namespace render::native {
 
 HWY_EXPORT(LayRow);
+HWY_EXPORT(ThinCells);
 HWY_EXPORT(StretchRow);
 HWY_EXPORT(ResolveRow);
 
@@ -303,6 +321,12 @@ void CoverTile::lay(const SplatPerson& person, const Patch& patch, const NearLay
 }
 
 void CoverTile::lay_stretched(const SplatPerson& person, const Patch& patch, const NearLayer* near, Layers layers) {
+    const auto for_each_group = [&](auto visit) {
+        for (int y = 0; y < patch.height; ++y)
+            for (std::uint64_t left = patch.used[y]; left != 0; left &= left - 1)
+                visit(patch.cells + std::ptrdiff_t{8} * (patch.stride * y + group_cells * std::countr_zero(left)));
+    };
+    for_each_group([](std::int16_t* cell) { HWY_DYNAMIC_DISPATCH(ThinCells)(cell, group_cells); });
     const Rect pixels = person.bounds();
     const int x0 = std::max(pixels.x0, tile_.x0), x1 = std::min(pixels.x1, tile_.x1);
     for (int y = std::max(pixels.y0, tile_.y0); x0 < x1 && y < std::min(pixels.y1, tile_.y1); ++y) {
@@ -310,16 +334,14 @@ void CoverTile::lay_stretched(const SplatPerson& person, const Patch& patch, con
             HWY_DYNAMIC_DISPATCH(StretchRow)(patch, person.cell, x0, x1 - x0, y, stretched_.data());
         if (used != 0) lay_row(person, stretched_.data(), used, {x0, y, x1, y + 1}, near, layers);
     }
-    for (int y = 0; y < patch.height; ++y)
-        for (std::uint64_t left = std::exchange(patch.used[y], 0); left != 0; left &= left - 1)
-            std::fill_n(patch.cells + std::ptrdiff_t{8} * (patch.stride * y + group_cells * std::countr_zero(left)),
-                        8 * group_cells, std::int16_t{0});
+    for_each_group([](std::int16_t* cell) { std::fill_n(cell, 8 * group_cells, std::int16_t{0}); });
+    std::fill_n(patch.used, patch.height, std::uint64_t{0});
 }
 
 void CoverTile::resolve(Plane<std::uint32_t>& out) {
     for (int y = tile_.y0; y < tile_.y1; ++y)
-        HWY_DYNAMIC_DISPATCH(ResolveRow)(&cover_[index_of(tile_.x0, y)], behind_->color.row(y) + tile_.x0,
-                                         out.row(y) + tile_.x0, tile_.x1 - tile_.x0);
+        HWY_DYNAMIC_DISPATCH(ResolveRow)
+        (&cover_[index_of(tile_.x0, y)], behind_->color.row(y) + tile_.x0, out.row(y) + tile_.x0, tile_.x1 - tile_.x0);
 }
 
 }  // namespace render::native

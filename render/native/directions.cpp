@@ -27,8 +27,7 @@ glm::vec2 on_diamond(float angle) {
 
 glm::vec3 direction_of(int node) {
     const float height = 2.0f * static_cast<float>(node / ring_nodes) / (rings - 1) - 1.0f;
-    const glm::vec2 around =
-        glm::normalize(on_diamond(4.0f * static_cast<float>(node % ring_nodes) / ring_nodes));
+    const glm::vec2 around = glm::normalize(on_diamond(4.0f * static_cast<float>(node % ring_nodes) / ring_nodes));
     const float out = 1.0f - std::abs(height);
     return glm::normalize(glm::vec3(out * around.x, height, out * around.y));
 }

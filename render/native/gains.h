@@ -14,8 +14,8 @@ namespace render::native {
 
 class Gains {
 public:
-    // What a person is drawn as: the coverage of each cell that isn't open, 1 = all of it, and how large their silhouette
-    // is [cells].
+    // What a person is drawn as: the coverage of each cell that isn't open, 1 = all of it, and how large their
+    // silhouette is [cells].
     struct Trial {
         std::vector<float> coverage;
         double silhouette = 0;

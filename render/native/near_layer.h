@@ -17,8 +17,8 @@ struct Rect {
     bool empty() const { return x0 >= x1 || y0 >= y1; }
 };
 
-inline constexpr int samples_across = 2;  // a pixel has as many samples across, and down, evenly spaced
-inline constexpr int sample_block_pixels = 2;    // a block is so many pixels wide and high,
+inline constexpr int samples_across = 2;       // a pixel has as many samples across, and down, evenly spaced
+inline constexpr int sample_block_pixels = 2;  // a block is so many pixels wide and high,
 inline constexpr int sample_block_side = samples_across * sample_block_pixels;  // and so many samples:
 inline constexpr int block_samples = sample_block_side * sample_block_side;
 inline constexpr float full = 32767;  // a colour or coverage of 1
@@ -92,7 +92,7 @@ private:
     Tile tile_;
     const BackdropPicture* behind_ = nullptr;
     Rect blocks_, touched_;
-    std::array<std::uint64_t, blocks_across> begun_{};             // a row of blocks each
+    std::array<std::uint64_t, blocks_across> begun_{};  // a row of blocks each
     // Of each block: all that hidden triangles look at.
     std::array<float, blocks_across*(blocks_across + 3) + 16> farthest_{};
     // Of samples, block by block. Apart, since most of what is drawn is hidden and looks no further than depths.

@@ -43,7 +43,7 @@ private:
     int origin_x_ = 0, origin_y_ = 0;  // PersonOnGrid's
     Rect pixels_;
     float nearest_ = 0;
-    std::vector<WideTriangle> wide_;   // instead of facing_, of who is too large or too near for it
+    std::vector<WideTriangle> wide_;  // instead of facing_, of who is too large or too near for it
 };
 
 }  // namespace render::native

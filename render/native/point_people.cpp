@@ -143,8 +143,7 @@ SplatPerson PointPeople::ready(const View& view, const Person& person, float cel
     // Where 32768 of each axis goes, and the middle of the box.
     constexpr float half_steps = 32768.0f / 65535.0f;
     const glm::vec3 half = instance.scale * half_steps * box.size();
-    const glm::vec3 middle =
-        instance.position + turn.to_world(instance.scale * (box.min + half_steps * box.size()));
+    const glm::vec3 middle = instance.position + turn.to_world(instance.scale * (box.min + half_steps * box.size()));
     out.depth = std::max(view.depth(middle), near_plane);
     out.reach = glm::length(half);
     out.nearness = fixed(out.reach / out.depth);

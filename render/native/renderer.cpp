@@ -160,7 +160,9 @@ float Renderer::draw_near(std::size_t tile, Easel& easel) const {
 
 void Renderer::draw_point_person(const SplatPerson& person, Easel& easel, Layers layers) const {
     const Tile& tile = easel.cover.tile();
-    const auto cell_at = [&](int pixel) { return static_cast<int>(std::floor(static_cast<float>(pixel) / person.cell)); };
+    const auto cell_at = [&](int pixel) {
+        return static_cast<int>(std::floor(static_cast<float>(pixel) / person.cell));
+    };
     Patch patch;
     patch.x0 = std::max<int>(person.x0, cell_at(tile.x0) - 1);
     patch.y0 = std::max<int>(person.y0, cell_at(tile.y0) - 1);

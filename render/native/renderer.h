@@ -1,8 +1,8 @@
 // Frames by the processor alone: no device, no driver. docs/native-splats.md tells how people become pixels.
 //
 // The picture is cut into tiles that threads draw one by one. In each, people go from front to back: near ones as
-// triangles into a layer of four samples a pixel, the others as points with coverage, each behind what is there already.
-// What stays open shows the backdrop. The bits are the same on every processor and for any number of threads.
+// triangles into a layer of four samples a pixel, the others as points with coverage, each behind what is there
+// already. What stays open shows the backdrop. The bits are the same on every processor and for any number of threads.
 #pragma once
 
 #include <tbb/enumerable_thread_specific.h>

@@ -10,15 +10,18 @@ namespace render::native {
 
 namespace {
 
-constexpr int side = 128;    // [cells] of the square that a body is looked at in
-constexpr int margin = 2;    // [cells] around it
+constexpr int side = 128;      // [cells] of the square that a body is looked at in
+constexpr int margin = 2;      // [cells] around it
 constexpr float slack = 2.0f;  // [cells] A point so far behind the surface in front of it lies on that surface.
 constexpr float nothing = -std::numeric_limits<float>::infinity();
 
 }  // namespace
 
 SelfOcclusion::SelfOcclusion(const figures::Figure& figure, int pose, std::span<const float> shares)
-    : figure_(figure), points_(static_cast<int>(shares.size())), double_sided_(figure.mesh->double_sided()), depth_(side * side) {
+    : figure_(figure),
+      points_(static_cast<int>(shares.size())),
+      double_sided_(figure.mesh->double_sided()),
+      depth_(side * side) {
     const motion::PoseTable& poses = *figure.poses;
     for (int i = 0; i < poses.vertex_count; ++i)
         vertices_.push_back(motion::unpack_position(
@@ -38,8 +41,8 @@ SelfOcclusion::Seen SelfOcclusion::look_from(glm::vec3 direction, std::span<std:
     up_ = glm::cross(direction, right_);
     draw_depths();
     Seen seen;
-    const float cells = static_cast<float>(
-        std::count_if(depth_.begin(), depth_.end(), [](float depth) { return depth > nothing; }));
+    const float cells =
+        static_cast<float>(std::count_if(depth_.begin(), depth_.end(), [](float depth) { return depth > nothing; }));
     seen.silhouette = cells / (cells_per_unit_ * cells_per_unit_);
     std::ranges::fill(visible, 0u);
     for (int i = 0; i < points_; ++i) {

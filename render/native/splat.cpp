@@ -23,11 +23,16 @@ constexpr Lanes lanes;
 using Pixel = hn::FixedTag<std::int16_t, 8>;
 constexpr Pixel pixel;
 
-Vector all(std::int16_t value) { return hn::Set(lanes, value); }
-Vector times(Vector a, Vector b) { return hn::MulFixedPoint15(a, b); }
+Vector all(std::int16_t value) {
+    return hn::Set(lanes, value);
+}
+Vector times(Vector a, Vector b) {
+    return hn::MulFixedPoint15(a, b);
+}
 
 Vector dot(const Vector* v, const std::array<std::int16_t, 3>& axis) {
-    return hn::Add(hn::Add(times(v[0], all(axis[0])), times(v[1], all(axis[1]))), times(v[2], all(axis[2])));
+    return hn::SaturatedAdd(hn::SaturatedAdd(times(v[0], all(axis[0])), times(v[1], all(axis[1]))),
+                            times(v[2], all(axis[2])));
 }
 
 // 127 becomes 32512; what they are multiplied by makes up for it.
@@ -55,8 +60,8 @@ HWY_INLINE Vector shown(const SplatPerson& person, int chunk, int lane) {
     const Vector near = hn::Load(lanes, person.shares[0] + chunk * chunk_points + lane);
     const Vector far = hn::Load(lanes, person.shares[1] + chunk * chunk_points + lane);
     const Vector share = hn::Add(near, times(hn::Sub(far, near), all(person.to_far)));
-    Vector part = person.two_sided ? hn::Abs(facing)
-                                   : times(hn::Max(facing, hn::Zero(lanes)), seen(person, chunk, lane));
+    Vector part =
+        person.two_sided ? hn::Abs(facing) : times(hn::Max(facing, hn::Zero(lanes)), seen(person, chunk, lane));
     part = times(part, share);
     const Vector index = hn::Iota(lanes, static_cast<std::int16_t>(chunk * chunk_points + lane));
     const Vector last = all(static_cast<std::int16_t>(person.count - 1));
@@ -64,7 +69,9 @@ HWY_INLINE Vector shown(const SplatPerson& person, int chunk, int lane) {
     return hn::IfThenZeroElse(hn::Gt(index, last), part);
 }
 
-int chunks_of(const SplatPerson& person) { return (person.count + chunk_points - 1) / chunk_points; }
+int chunks_of(const SplatPerson& person) {
+    return (person.count + chunk_points - 1) / chunk_points;
+}
 
 // Of short prefixes, what each point shows is needed twice: to sum it up, and to draw it.
 struct Parts {
@@ -86,23 +93,32 @@ float sum_shown(const SplatPerson& person, Parts& parts) {
     return static_cast<float>(hn::GetLane(hn::SumOfLanes(wide, sum))) / 32767.0f;
 }
 
-std::int16_t area_of(const SplatPerson& person, Parts& parts) {
+// What a point that shows all of its area covers: `steps` of which one is 2^shift of a cell's.
+struct Area {
+    std::int16_t steps;
+    int shift;
+};
+
+Area area_of(const SplatPerson& person, Parts& parts) {
     float each = 4.0f * person.area_each;
     if (person.total > 0.0f) {
         const float sum = sum_shown(person, parts);
         each = sum > 0.0f ? person.total / sum : 0.0f;
     }
     constexpr float most = 32767.0f;
-    return static_cast<std::int16_t>(std::min(each * cell_full + 0.5f, most));
+    float steps = each * cell_full;
+    int shift = 0;
+    for (; steps > most && shift < 3; ++shift) steps *= 0.5f;
+    return {static_cast<std::int16_t>(std::min(steps + 0.5f, most)), shift};
 }
 
 // What is found of a chunk before it is added to the patch. One more at the end: they are read eight bytes at a time.
 struct alignas(64) Staged {
     std::uint64_t light_and_area[chunk_points];
-    std::int16_t back[chunk_points + 4];                     // way back times area
-    std::int16_t column[chunk_points], row[chunk_points];    // of the first of its four cells
-    std::int16_t right[chunk_points], down[chunk_points];    // how far it is from that one's middle, 32768 = a cell
-    std::uint32_t used;                                      // a bit a point
+    std::int16_t back[chunk_points + 4];                   // way back times area
+    std::int16_t column[chunk_points], row[chunk_points];  // of the first of its four cells
+    std::int16_t right[chunk_points], down[chunk_points];  // how far it is from that one's middle, 32768 = a cell
+    std::uint32_t used;                                    // a bit a point
 };
 
 // Linear colour of the surface, 32767 = 1.
@@ -111,8 +127,8 @@ Vector albedo(const SplatPerson& person, int channel, int chunk, int lane, Vecto
         const Vector own = hn::Load(lanes, person.colors + channel * chunk_points + lane);
         Vector tint = hn::Zero(lanes);
         for (int slot = 0; slot <= model::slot_count; ++slot)
-            tint = hn::Add(tint, times(hn::Load(lanes, person.slot_shares + slot * chunk_points + lane),
-                                       all(person.palette[channel][slot])));
+            tint = hn::SaturatedAdd(tint, times(hn::Load(lanes, person.slot_shares + slot * chunk_points + lane),
+                                                all(person.palette[channel][slot])));
         return times(own, tint);
     }
     const Vector own = hn::Load(lanes, person.colors + (chunk * 3 + channel) * chunk_points + lane);
@@ -126,15 +142,14 @@ struct Place {
     std::int16_t x, y;  // [1/128 cell] the middle of the body, from the middle of the patch's first cell
 };
 
-void stage(const SplatPerson& person, const SplatLight& light, const Patch& patch, Place place, std::int16_t area,
+void stage(const SplatPerson& person, const SplatLight& light, const Patch& patch, Place place, Area area,
            const Parts* parts, int chunk, int lane, Staged& out) {
     const std::int16_t* from = person.positions + chunk * 3 * chunk_points + lane;
     Vector position[3];
     for (int axis = 0; axis < 3; ++axis) position[axis] = hn::Load(lanes, from + axis * chunk_points);
 
-    const Vector part =
-        parts ? hn::Load(lanes, parts->of + chunk * chunk_points + lane) : shown(person, chunk, lane);
-    const Vector cover = times(part, all(area));
+    const Vector part = parts ? hn::Load(lanes, parts->of + chunk * chunk_points + lane) : shown(person, chunk, lane);
+    const Vector cover = hn::ShiftLeftSame(times(part, all(area.steps)), area.shift);
     const Vector back = dot(position, person.axes[2]);
     // 1 / (1 + t) - 1 = -t + t^2 - t^3 ...: what is farther back is smaller.
     const Vector t = times(back, all(person.nearness));
@@ -148,8 +163,8 @@ void stage(const SplatPerson& person, const SplatLight& light, const Patch& patc
     const auto within = [](Vector at, int size) {
         return hn::And(hn::Gt(at, all(-1)), hn::Lt(at, all(static_cast<std::int16_t>(size - 1))));
     };
-    const auto used = hn::And(hn::Gt(cover, hn::Zero(lanes)),
-                              hn::And(within(column, patch.width), within(row, patch.height)));
+    const auto used =
+        hn::And(hn::Gt(cover, hn::Zero(lanes)), hn::And(within(column, patch.width), within(row, patch.height)));
     std::uint8_t bits[8] = {};
     hn::StoreMaskBits(lanes, used, bits);
     std::uint32_t mask = 0;
@@ -198,17 +213,16 @@ void add_row(std::int16_t* cell, hn::Vec<Pixel> row, hn::Vec<Pixel> right) {
 // Shares a point out among its four cells.
 void add(const Staged& staged, const Patch& patch, int i) {
     const hn::FixedTag<std::int16_t, 4> half;
-    const auto value = hn::Combine(
-        pixel, hn::LoadU(half, staged.back + i),
-        hn::LoadU(half, reinterpret_cast<const std::int16_t*>(staged.light_and_area + i)));
+    const auto value = hn::Combine(pixel, hn::LoadU(half, staged.back + i),
+                                   hn::LoadU(half, reinterpret_cast<const std::int16_t*>(staged.light_and_area + i)));
     const int column = staged.column[i], row = staged.row[i];
     const auto right = hn::Set(pixel, staged.right[i]);
     const auto below = hn::MulFixedPoint15(value, hn::Set(pixel, staged.down[i]));
     std::int16_t* cell = patch.cells + 8 * (row * patch.stride + column);
     add_row(cell, hn::Sub(value, below), right);
     add_row(cell + 8 * patch.stride, below, right);
-    const std::uint64_t groups =
-        std::uint64_t{1} << (column / group_cells) | std::uint64_t{1} << ((column + 1) / group_cells);
+    const std::uint64_t groups = std::uint64_t{1} << (column / group_cells) | std::uint64_t{1}
+                                                                                  << ((column + 1) / group_cells);
     patch.used[row] |= groups;
     patch.used[row + 1] |= groups;
 }
@@ -217,8 +231,8 @@ void add(const Staged& staged, const Patch& patch, int i) {
 
 void Splat(const SplatPerson& person, const SplatLight& light, const Patch& patch) {
     Parts parts;
-    const std::int16_t area = area_of(person, parts);
-    if (area == 0) return;
+    const Area area = area_of(person, parts);
+    if (area.steps == 0) return;
     // From the middle of the patch's first cell, where all of a point would go.
     const auto place_of = [](std::int32_t middle, int first) {
         constexpr int half = 1 << (cell_bits - 1);
@@ -230,8 +244,7 @@ void Splat(const SplatPerson& person, const SplatLight& light, const Patch& patc
         staged.used = 0;
         for (int lane = 0; lane < chunk_points; lane += static_cast<int>(hn::Lanes(lanes)))
             stage(person, light, patch, place, area, person.total > 0.0f ? &parts : nullptr, chunk, lane, staged);
-        for (std::uint32_t left = staged.used; left != 0; left &= left - 1)
-            add(staged, patch, std::countr_zero(left));
+        for (std::uint32_t left = staged.used; left != 0; left &= left - 1) add(staged, patch, std::countr_zero(left));
     }
 }
 

@@ -15,9 +15,9 @@
 namespace render::native {
 
 // Fixed-point units.
-inline constexpr int cell_bits = 7;                   // positions: 128 steps a cell
-inline constexpr std::int16_t cell_full = 8192;       // a cell that is covered once; up to 4 times fit
-inline constexpr std::uint16_t pixel_full = 16384;    // a pixel that is covered once; up to twice fits
+inline constexpr int cell_bits = 7;                 // positions: 128 steps a cell
+inline constexpr std::int16_t cell_full = 8192;     // a cell that is covered once; up to 4 times fit
+inline constexpr std::uint16_t pixel_full = 16384;  // a pixel that is covered once; up to twice fits
 
 // Sums over so few points depend on which they are: they are made to cover what the silhouette does, one by one.
 inline constexpr int longest_summed_prefix = 128;
@@ -33,7 +33,7 @@ struct SplatPerson {
     std::array<const std::int16_t*, 2> shares;  // the near ones and the far ones
     std::int16_t to_far;
     const std::int16_t* colors;
-    const std::uint16_t* slots;        // of long prefixes
+    const std::uint16_t* slots;       // of long prefixes
     const std::int16_t* slot_shares;  // of short ones, else null
     bool two_sided;
     // Screen x, y [1/128 cell] and the way back from the middle [of `reach`], of a position of 32768, by axis.
@@ -43,18 +43,18 @@ struct SplatPerson {
     std::array<std::int16_t, 3> to_eye;  // in the model's axes
     std::array<std::int16_t, 3> to_sun;
     std::array<std::array<std::int16_t, 8>, 3> palette;  // linear, by channel, of slots 0 to slot_count
-    int count;                           // points, the last of which counts for `last_share`
+    int count;                                           // points, the last of which counts for `last_share`
     std::int16_t last_share;
-    float silhouette;   // [cells]
-    float total;        // [cells] that the points add up to; 0: to what `area_each` gives
-    float area_each;    // [cells] of a point that faces the eye, with a facet and a share of 1
+    float silhouette;    // [cells]
+    float total;         // [cells] that the points add up to; 0: to what `area_each` gives
+    float area_each;     // [cells] of a point that faces the eye, with a facet and a share of 1
     float depth, reach;  // [m] view depth of the middle; how far a point may be from it
     // The depth again, and how deep a body is: who is no farther apart than this can't be in front of one another.
     std::int16_t depth_code, thickness;
     std::int16_t x0, y0, x1, y1;  // [cells] what they may touch
     float cell;                   // [px] side of a cell
 
-    Rect bounds() const;                              // [px] of the picture, anywhere
+    Rect bounds() const;                             // [px] of the picture, anywhere
     float nearest() const { return depth - reach; }  // [m] view depth
     void prefetch() const;                           // the first points: they will be drawn soon
 };
@@ -76,6 +76,5 @@ inline constexpr int largest_patch_side = 132;  // [cells]; offsets of cells fit
 
 // Adds a person up in a patch that is all 0.
 void splat(const SplatPerson& person, const SplatLight& light, const Patch& patch);
-
 
 }  // namespace render::native

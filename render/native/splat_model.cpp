@@ -64,8 +64,7 @@ void SplatModel::pack_poses(const figures::Figure& figure) {
         extent.max.fill(-32768);
         for (int i = 0; i < chunks_ * chunk_points; ++i) {
             const int point = std::min(i, points_ - 1);  // the last chunk is filled up
-            const motion::PosedVertex& posed =
-                poses.points[static_cast<std::size_t>(pose) * poses.point_count + point];
+            const motion::PosedVertex& posed = poses.points[static_cast<std::size_t>(pose) * poses.point_count + point];
             const glm::vec3 normal = motion::unpack_normal(posed), piece = facet(figure, pose, point);
             const std::array<std::uint16_t, 3> packed{posed.x, posed.y, posed.z};
             const std::size_t at = pose_size * pose + (i / chunk_points) * 3 * chunk_points + i % chunk_points;
@@ -73,8 +72,8 @@ void SplatModel::pack_poses(const figures::Figure& figure) {
                 const auto position = static_cast<std::int16_t>(packed[axis] - 32768);
                 positions_[at + axis * chunk_points] = position;
                 normals_[at + axis * chunk_points] = static_cast<std::int8_t>(std::lround(127.0f * normal[axis]));
-                facets_[at + axis * chunk_points] = static_cast<std::int8_t>(
-                    std::lround(std::clamp(facet_unit * piece[axis], -127.0f, 127.0f)));
+                facets_[at + axis * chunk_points] =
+                    static_cast<std::int8_t>(std::lround(std::clamp(facet_unit * piece[axis], -127.0f, 127.0f)));
                 extent.min[axis] = std::min(extent.min[axis], position);
                 extent.max[axis] = std::max(extent.max[axis], position);
             }
@@ -166,7 +165,8 @@ void SplatModel::look_around(const figures::Figure& figure) {
     const float area_each = area_ / static_cast<float>(points_);
     std::vector<float> own(static_cast<std::size_t>(points_));
     for (int i = 0; i < points_; ++i)
-        own[i] = static_cast<float>(shares_[std::size_t{chunk_points} * chunks_ * (rungs_.size() - 1) + i]) / share_unit;
+        own[i] =
+            static_cast<float>(shares_[std::size_t{chunk_points} * chunks_ * (rungs_.size() - 1) + i]) / share_unit;
     tbb::parallel_for(std::size_t{0}, key_poses_.size(), [&](std::size_t key) {
         SelfOcclusion body(figure, static_cast<int>(key_poses_[key]), own);
         for (int node = 0; node < direction_nodes; ++node) {

@@ -18,7 +18,7 @@ inline constexpr int chunk_points = 32;
 // Prefixes up to so long show the mean looks of the surface that their points stand for (pointsample/prefix_look.h).
 inline constexpr int longest_mean_prefix = chunk_points;
 // Of a handful of points none may happen to face the eye: each stands for both sides of the body.
-inline constexpr int longest_two_sided_prefix = 8;
+inline constexpr int longest_two_sided_prefix = 16;
 
 class SplatModel {
 public:
@@ -92,9 +92,9 @@ private:
     Array<std::int8_t> normals_, facets_;
     Array<std::uint16_t> slots_;
     std::vector<Extent> extents_;
-    std::vector<std::uint32_t> key_of_;    // a pose's key pose, as a number of its own
+    std::vector<std::uint32_t> key_of_;  // a pose's key pose, as a number of its own
     std::vector<std::uint32_t> key_poses_;
-    std::vector<std::uint32_t> visible_;   // [key][node][chunk]
+    std::vector<std::uint32_t> visible_;       // [key][node][chunk]
     std::vector<float> silhouettes_, summed_;  // [key][node]
     // Of the silhouettes, half the second differences from node to node: around, and from ring to ring.
     std::vector<float> bends_around_, bends_up_;

@@ -223,7 +223,7 @@ void add_clipped(const View& view, const Corners& corners, const ScreenCorners& 
 
 // {a, b, c} and {a, c, d} as one, whichever corners they begin with; nothing if they are not that.
 std::optional<Panel> joined(const std::vector<glm::vec3>& positions, const Triangle& first, const Triangle& second,
-                           std::uint32_t surface) {
+                            std::uint32_t surface) {
     constexpr float flat = 1e-3f;  // [m] off the plane
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) {
@@ -263,7 +263,7 @@ void project(const View& view, const Corners& corners, ScreenCorners& out) {
 }
 
 std::vector<Panel> make_panels(const std::vector<glm::vec3>& positions, const std::vector<Triangle>& triangles,
-                             const std::vector<std::uint32_t>& surfaces) {
+                               const std::vector<std::uint32_t>& surfaces) {
     std::vector<Panel> panels;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const auto [a, b, c] = triangles[i];
@@ -276,8 +276,8 @@ std::vector<Panel> make_panels(const std::vector<glm::vec3>& positions, const st
     return panels;
 }
 
-void add_visible(const View& view, const Corners& corners, const ScreenCorners& screen, const std::vector<Panel>& panels,
-                 std::vector<ScreenTriangle>& out) {
+void add_visible(const View& view, const Corners& corners, const ScreenCorners& screen,
+                 const std::vector<Panel>& panels, std::vector<ScreenTriangle>& out) {
     const auto corner = [&](std::uint32_t i) { return ScreenCorner{screen.x[i], screen.y[i], screen.depth[i]}; };
     for (const Panel& panel : panels) {
         const auto [a, b, c, d] = panel.corners;

@@ -62,11 +62,11 @@ struct Panel {
 
 // The triangles in their order. Neighbours in it become one if they share their surface and plane.
 std::vector<Panel> make_panels(const std::vector<glm::vec3>& positions, const std::vector<Triangle>& triangles,
-                             const std::vector<std::uint32_t>& surfaces);
+                               const std::vector<std::uint32_t>& surfaces);
 
 // Appends to `out` what faces the camera and may cover a pixel's centre, in the order of `panels`; of clipped ones the
 // rest, in several triangles.
-void add_visible(const View& view, const Corners& corners, const ScreenCorners& screen, const std::vector<Panel>& panels,
-                 std::vector<ScreenTriangle>& out);
+void add_visible(const View& view, const Corners& corners, const ScreenCorners& screen,
+                 const std::vector<Panel>& panels, std::vector<ScreenTriangle>& out);
 
 }  // namespace render::native

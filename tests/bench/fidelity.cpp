@@ -41,7 +41,8 @@ std::vector<double> blurred(const std::vector<double>& values, int width, int he
                 double sum = 0, weights = 0;
                 for (int i = -window_reach; i <= window_reach; ++i) {
                     if (at + i < 0 || at + i >= count) continue;
-                    sum += window[i + window_reach] * from[static_cast<std::size_t>(line) * line_step + (at + i) * step];
+                    sum +=
+                        window[i + window_reach] * from[static_cast<std::size_t>(line) * line_step + (at + i) * step];
                     weights += window[i + window_reach];
                 }
                 to[static_cast<std::size_t>(line) * line_step + at * step] = sum / weights;
@@ -102,7 +103,8 @@ render::Image box_filtered(const render::Image& image, int factor) {
                 for (int v = 0; v < factor; ++v)
                     for (int u = 0; u < factor; ++u) {
                         const std::size_t at =
-                            std::size_t{3} * ((static_cast<std::size_t>(y) * factor + v) * image.width + x * factor + u);
+                            std::size_t{3} *
+                            ((static_cast<std::size_t>(y) * factor + v) * image.width + x * factor + u);
                         const double code = image.pixels[at + channel] / top;
                         sum += code * code;
                     }

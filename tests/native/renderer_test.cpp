@@ -7,6 +7,7 @@
 #include <tbb/task_arena.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -104,12 +105,20 @@ TEST(NativeRenderer, DrawsTheSameOnAnyNumberOfThreads) {
     }
 }
 
+// Where the stands hide most of the people in them.
+std::vector<Shot> from_outside(const sfsm::Decision& decision) {
+    std::vector<Shot> shots = presets(decision);
+    for (const glm::dvec3 from : {glm::dvec3(220, 3, 0), glm::dvec3(0, 12, 200), glm::dvec3(-160, 30, 120)})
+        shots.push_back({{from, {0, 4, 0}, 0.6}, 323, 187, decision});
+    return shots;
+}
+
 TEST(NativeRenderer, DrawsTheSameWithoutTheHiddenPeople) {
     std::int64_t hidden = 0;
     Renderer renderer = place().renderer(323, 187);
     render::Selector selector = place().selector();
     for (const double splat_size : {0.0, 1.0})
-        for (const Shot& shot : presets(splat_size > 0 ? points_of(splat_size) : sfsm::Decision{})) {
+        for (const Shot& shot : from_outside(splat_size > 0 ? points_of(splat_size) : sfsm::Decision{})) {
             const render::View view = render::make_view(shot.pose, shot.width, shot.height);
             const render::Surroundings around = renderer.begin(view);
             hidden += selector.survey(view, shot.tick, around).hidden;
@@ -126,7 +135,8 @@ TEST(NativeRenderer, KeepsItsBackgroundAndItsPictureOnlyWhileTheyAreTrue) {
     const std::vector<Shot> shots = presets(points_of(1));
     Renderer renderer = place().renderer(323, 187);
     render::Selector selector = place().selector();
-    const render::View still = render::make_view(shots[0].pose, 323, 187), close = render::make_view(shots[1].pose, 323, 187);
+    const render::View still = render::make_view(shots[0].pose, 323, 187),
+                       close = render::make_view(shots[1].pose, 323, 187);
     EXPECT_GT(renderer.begin(still).work[sfsm::WorkKind::pixel], 0);
     EXPECT_EQ(renderer.begin(still).work, sfsm::Work{}) << "the camera stands still";
     EXPECT_GT(renderer.begin(close).work[sfsm::WorkKind::pixel], 0);
@@ -170,11 +180,23 @@ TEST(NativeRenderer, DrawsFromAnywhereAtAnySize) {
     EXPECT_EQ(shoot(wide).pixels.size(), std::size_t{3} * 8192 * 8192);
 }
 
-// One person before a white sky, without light: what they take of it is what they cover. The same person's mesh,
-// projected in double precision onto so many samples a pixel, is the truth.
+// The person in white, in every part of them.
+struct White {
+    model::Mesh mesh = place().person.mesh;
+    pointsample::PointModel points = place().points;
+
+    White() {
+        std::ranges::fill(mesh.colors, glm::u8vec4(255));
+        std::ranges::fill(points.colors, glm::u8vec4(255));
+    }
+    std::vector<figures::Figure> figures() const { return {{&mesh, &place().poses[0], &points}}; }
+};
+
+// One person in white before a black sky, lit alike from everywhere: the light that they send is what they cover. The
+// same person's mesh, projected in double precision onto so many samples a pixel, is the truth.
 class Alone {
 public:
-    Alone(double height_px, double yaw, double elevation, int pose) : pose_(pose) {
+    Alone(double height_px, double yaw, double elevation, int pose) : pose_(pose), height_px_(height_px) {
         const motion::PoseTable& poses = place().poses[0];
         const double distance = 40, middle = poses.box.center().y;
         const double fov = 2 * std::atan(0.5 * side * poses.rest_height / (height_px * distance));
@@ -186,7 +208,9 @@ public:
     }
 
     double natively(double splat_size) const {
-        static Renderer renderer(scene::StaticMesh{}, scene::Ground{}, dark_before_white(), place().figures(), side, side);
+        static const White white;
+        static Renderer renderer(scene::StaticMesh{}, scene::Ground{}, white_before_black(), white.figures(), side,
+                                 side);
         renderer.begin(view_);
         render::Frame frame;
         frame.view = view_;
@@ -195,13 +219,13 @@ public:
         renderer.draw(frame);
         double covered = 0;
         const std::vector<std::uint8_t> pixels = renderer.read_image().pixels;
-        for (std::size_t i = 0; i < pixels.size(); i += 3) covered += 1 - std::pow(pixels[i] / 255.0, 2);
+        for (std::size_t i = 0; i < pixels.size(); i += 3) covered += std::pow(pixels[i] / 255.0, 2);
         return covered;
     }
 
     // [px]
     double truly() const {
-        constexpr double samples = 8;
+        const double samples = height_px_ < 4 ? 64 : 8;  // a pixel, across and down
         std::set<std::pair<int, int>> hit;
         const model::Mesh& mesh = place().person.mesh;
         for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
@@ -215,10 +239,10 @@ public:
 private:
     static constexpr int side = 160;
 
-    static scene::Light dark_before_white() {
+    static scene::Light white_before_black() {
         scene::Light light;
-        light.sun = light.from_above = light.from_below = light.glare = glm::vec3(0);
-        light.haze = light.zenith = glm::vec3(1);
+        light.sun = light.glare = light.haze = light.zenith = glm::vec3(0);
+        light.from_above = light.from_below = glm::vec3(1);
         return light;
     }
 
@@ -229,6 +253,7 @@ private:
         person.instance.scale = 1;
         person.instance.sin_yaw = sine_;
         person.instance.cos_yaw = cosine_;
+        person.instance.palette.colors.fill(glm::u8vec4(255));
         person.representation = 1;
         person.pose = static_cast<std::uint32_t>(pose_);
         person.depth = view_.depth(person.instance.position);
@@ -271,6 +296,7 @@ private:
     }
 
     int pose_;
+    double height_px_;
     render::View view_;
     std::int16_t sine_, cosine_;
 };
@@ -280,7 +306,7 @@ TEST(NativePoints, CoverWhatTheMeshDoes) {
     for (const double height : {1.0, 2.0, 5.0, 12.0, 30.0, 60.0})
         for (const double splat_size : {0.6, 1.0, 2.0, 4.0}) {
             double covered = 0, truth = 0, worst = 0;
-            for (int i = 0; i < 12; ++i) {
+            for (int i = 0; i < 24; ++i) {
                 const Alone person(height, 0.7 * i, 0.12 * i - 0.4, i * 97 % poses);
                 const double one = person.natively(splat_size), of = person.truly();
                 covered += one;
@@ -288,7 +314,7 @@ TEST(NativePoints, CoverWhatTheMeshDoes) {
                 worst = std::max(worst, std::abs(one / of - 1));
             }
             EXPECT_NEAR(covered / truth, 1, 0.03) << height << " px high, S " << splat_size;
-            EXPECT_LT(worst, 0.25) << height << " px high, S " << splat_size;
+            EXPECT_LT(worst, 0.4) << height << " px high, S " << splat_size;
         }
 }
 
