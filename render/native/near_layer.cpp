@@ -5,6 +5,21 @@
 #include <cassert>
 #include <cstring>
 
+#ifndef GRANDSTAND_NATIVE_NEAR_LAYER_ONCE
+#define GRANDSTAND_NATIVE_NEAR_LAYER_ONCE
+
+namespace render::native {
+
+// Two rows of pixels, from a row of blocks' first on.
+struct PixelRows {
+    std::uint16_t* rgba[sample_block_pixels];
+    float* depth[sample_block_pixels];
+};
+
+}  // namespace render::native
+
+#endif
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/native/near_layer.cpp"
 #include <hwy/foreach_target.h>
@@ -20,10 +35,11 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Counts = hn::FixedTag<std::uint32_t, 4>;
 using Depths = hn::FixedTag<float, 4>;
 
-// The block's two rows of two pixels. `behind`: depths of the backdrop at its four.
-void resolve_block(const Block& block, const float* behind, std::uint16_t* const rgba[2], float* const depth[2]) {
+// `x`: the block's first pixel in the rows. `behind`: depths of the backdrop at its four.
+void resolve_block(const Block& block, const float* behind, const PixelRows& to, std::ptrdiff_t x) {
     const Counts counts;
     const Depths depths;
+    const hn::Half<Depths> pair;
     constexpr std::uint32_t samples = samples_across * samples_across;
     const auto half = hn::Set(counts, samples / 2);
     const auto low = hn::Set(counts, 0xffffu);
@@ -33,25 +49,46 @@ void resolve_block(const Block& block, const float* behind, std::uint16_t* const
     for (std::uint32_t s = 0; s < samples; ++s) {
         const auto z = hn::Load(depths, block.depth + 4 * s);
         const auto covered = hn::Gt(z, back);
-        const auto red_green = hn::Load(counts, block.red_green + 4 * s);
         nearest = hn::Max(nearest, hn::IfThenElseZero(covered, z));
-        red = hn::Add(red, hn::And(red_green, low));
-        green = hn::Add(green, hn::ShiftRight<16>(red_green));
         blue = hn::Add(blue, hn::Load(counts, block.blue + 4 * s));
         cover = hn::Add(cover, hn::IfThenElseZero(hn::RebindMask(counts, covered),
                                                   hn::Set(counts, static_cast<std::uint32_t>(full))));
     }
+    // Halves of 32767 add up twice before they spill over.
+    for (std::uint32_t s = 0; s < samples; s += 2) {
+        const auto red_green =
+            hn::Add(hn::Load(counts, block.red_green + 4 * s), hn::Load(counts, block.red_green + 4 * (s + 1)));
+        red = hn::Add(red, hn::And(red_green, low));
+        green = hn::Add(green, hn::ShiftRight<16>(red_green));
+    }
     const auto quarter = [](auto sum) { return hn::ShiftRight<2>(sum); };
     const auto red_green = hn::Or(quarter(red), hn::ShiftLeft<16>(quarter(green)));
     const auto blue_cover = hn::Or(quarter(blue), hn::ShiftLeft<16>(quarter(cover)));
-    HWY_ALIGN std::uint32_t pixels[8];
-    HWY_ALIGN float nearest_of[4];
-    hn::StoreInterleaved2(red_green, blue_cover, counts, pixels);
-    hn::Store(nearest, depths, nearest_of);
-    std::memcpy(rgba[0], pixels, 16);
-    std::memcpy(rgba[1], pixels + 4, 16);
-    std::memcpy(depth[0], nearest_of, 8);
-    std::memcpy(depth[1], nearest_of + 2, 8);
+    const hn::Repartition<std::uint16_t, Counts> values;
+    hn::StoreU(hn::BitCast(values, hn::InterleaveLower(counts, red_green, blue_cover)), values, to.rgba[0] + 4 * x);
+    hn::StoreU(hn::BitCast(values, hn::InterleaveUpper(counts, red_green, blue_cover)), values, to.rgba[1] + 4 * x);
+    hn::StoreU(hn::LowerHalf(pair, nearest), pair, to.depth[0] + x);
+    hn::StoreU(hn::UpperHalf(pair, nearest), pair, to.depth[1] + x);
+}
+
+// Blocks [first, end) of a row; those whose bit in `begun` is 0 are empty. `block`: the row's first. `upper`, `lower`:
+// the backdrop's depths from the row's first pixel on; who reads `last` or more reads `last`.
+void resolve_row(Block block, int first, int end, std::uint64_t begun, const float* upper, const float* lower, int last,
+                 const PixelRows& to) {
+    for (int column = first; column < end; ++column) {
+        const std::ptrdiff_t x = std::ptrdiff_t{sample_block_pixels} * column;
+        if ((begun >> column & 1) == 0) {
+            for (int row = 0; row < sample_block_pixels; ++row) {
+                std::memset(to.rgba[row] + 4 * x, 0, 4 * sample_block_pixels * sizeof(std::uint16_t));
+                std::memset(to.depth[row] + x, 0, sample_block_pixels * sizeof(float));
+            }
+            continue;
+        }
+        const std::ptrdiff_t next = std::min<std::ptrdiff_t>(x + 1, last);
+        const float behind[] = {upper[x], upper[next], lower[x], lower[next]};
+        const std::ptrdiff_t at = std::ptrdiff_t{block_samples} * column;
+        resolve_block({block.depth + at, nullptr, block.red_green + at, block.blue + at}, behind, to, x);
+    }
 }
 
 }  // namespace render::native::HWY_NAMESPACE
@@ -60,7 +97,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace render::native {
 
-HWY_EXPORT(resolve_block);
+HWY_EXPORT(resolve_row);
 
 NearLayer::NearLayer()
     : sample_depth_(hwy::AllocateAligned<float>(std::size_t{blocks_across} * blocks_across * block_samples)),
@@ -81,21 +118,21 @@ void NearLayer::begin(const Tile& tile, const BackdropPicture& behind) {
     farthest_.fill(-1);
 }
 
-// At a block's four pixels. The last ones may lie outside of the picture, where nobody looks.
-std::array<float, 4> NearLayer::depths_behind(int column, int row) const {
-    const int x0 = tile_.x0 + sample_block_pixels * column, x1 = std::min(x0 + 1, behind_->width - 1);
+// From the tile's first pixel on, at row `y` of its blocks. The last ones may lie outside of the picture, where nobody
+// looks.
+NearLayer::RowsBehind NearLayer::rows_behind(int row) const {
     const int y0 = tile_.y0 + sample_block_pixels * row, y1 = std::min(y0 + 1, behind_->height - 1);
-    const float* upper = behind_->depth.row(y0);
-    const float* lower = behind_->depth.row(y1);
-    return {upper[x0], upper[x1], lower[x0], lower[x1]};
+    return {behind_->depth.row(y0) + tile_.x0, behind_->depth.row(y1) + tile_.x0, behind_->width - 1 - tile_.x0};
 }
 
 void NearLayer::begin_block(const Block& block, int column, int row) const {
-    const std::array<float, 4> behind = depths_behind(column, row);
-    for (int i = 0; i < block_samples; i += 4) std::copy(behind.begin(), behind.end(), block.depth + i);
-    *block.farthest = *std::ranges::min_element(behind);
-    std::fill_n(block.red_green, block_samples, 0u);
-    std::fill_n(block.blue, block_samples, 0u);
+    const RowsBehind rows = rows_behind(row);
+    const int x0 = sample_block_pixels * column, x1 = std::min(x0 + 1, rows.last);
+    const float behind[] = {rows.upper[x0], rows.upper[x1], rows.lower[x0], rows.lower[x1]};
+    for (int i = 0; i < block_samples; i += 4) std::memcpy(block.depth + i, behind, sizeof behind);
+    *block.farthest = std::min(std::min(behind[0], behind[1]), std::min(behind[2], behind[3]));
+    std::memset(block.red_green, 0, block_samples * sizeof(std::uint32_t));
+    std::memset(block.blue, 0, block_samples * sizeof(std::uint32_t));
 }
 
 Rect NearLayer::begun_blocks() const {
@@ -113,21 +150,14 @@ Rect NearLayer::begun_blocks() const {
 
 void NearLayer::resolve() {
     const Rect blocks = begun_blocks();
-    const auto resolve_one = HWY_DYNAMIC_DISPATCH(resolve_block);
-    for (int y = blocks.y0; y < blocks.y1; ++y) {
-        for (int x = blocks.x0; x < blocks.x1; ++x) {
-            const std::ptrdiff_t pixel = std::ptrdiff_t{tile_side} * sample_block_pixels * y + sample_block_pixels * x;
-            std::uint16_t* const rgba[] = {rgba_.get() + 4 * pixel, rgba_.get() + 4 * (pixel + tile_side)};
-            float* const depth[] = {depth_.get() + pixel, depth_.get() + pixel + tile_side};
-            if ((begun_[y] >> x & 1) == 0) {
-                for (int i = 0; i < sample_block_pixels; ++i) {
-                    std::fill_n(rgba[i], 4 * sample_block_pixels, std::uint16_t{0});
-                    std::fill_n(depth[i], sample_block_pixels, 0.0f);
-                }
-                continue;
-            }
-            resolve_one(block(x, y), depths_behind(x, y).data(), rgba, depth);
-        }
+    const auto resolve_blocks = HWY_DYNAMIC_DISPATCH(resolve_row);
+    for (int row = blocks.y0; row < blocks.y1; ++row) {
+        const RowsBehind behind = rows_behind(row);
+        const std::size_t first = number_of(0, row) * block_samples;
+        const std::ptrdiff_t upper = std::ptrdiff_t{tile_side} * sample_block_pixels * row, lower = upper + tile_side;
+        resolve_blocks({&sample_depth_[first], nullptr, &red_green_[first], &blue_[first]}, blocks.x0, blocks.x1,
+                       begun_[row], behind.upper, behind.lower, behind.last,
+                       {{&rgba_[4 * upper], &rgba_[4 * lower]}, {&depth_[upper], &depth_[lower]}});
     }
     touched_ = {tile_.x0 + sample_block_pixels * blocks.x0, tile_.y0 + sample_block_pixels * blocks.y0,
                 std::min(tile_.x0 + sample_block_pixels * blocks.x1, tile_.x1),

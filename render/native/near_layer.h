@@ -86,7 +86,12 @@ private:
     static std::size_t number_of(int column, int row) { return static_cast<std::size_t>(blocks_across * row + column); }
     std::ptrdiff_t row_start(int y) const { return std::ptrdiff_t{tile_side} * (y - tile_.y0); }
     void begin_block(const Block& block, int column, int row) const;
-    std::array<float, 4> depths_behind(int column, int row) const;
+    // The backdrop's depths; `last` can be read, and what is beyond it not.
+    struct RowsBehind {
+        const float *upper, *lower;
+        int last;
+    };
+    RowsBehind rows_behind(int row) const;
     Rect begun_blocks() const;  // within the tile
 
     Tile tile_;
