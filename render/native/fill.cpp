@@ -281,7 +281,7 @@ struct alignas(64) EdgeGroup {
     std::int32_t most[3][group];   // that it gains within a block
     // How much of corner k = 1, 2 a sample is: scale * edge + rest[k - 1].
     float scale[group], rest[2][group];
-    float nearest[group];                                         // that any sample may be
+    float nearest[group];  // that any sample may be
     float depth[group], depth_second[group], depth_third[group];  // depth + edge 1 * second + edge 2 * third
     std::int32_t first_column[group], end_column[group], first_row[group], end_row[group];  // blocks from the person's
 
@@ -382,10 +382,13 @@ FacingCorners corners_of(const PersonMesh& mesh, std::uint32_t number) {
             &face};
 }
 
-// Of those of set_up_edges() that are alive.
-void set_up_depths(const PersonMesh& mesh, const FacingTriangle* facing, std::uint32_t alive, const LitVertex* vertices,
+// Of those of set_up_edges() that are alive. Returns which of them are so flat that their perspective doesn't show: in a
+// colour as stored, a square root, it is less than one of 255 steps.
+std::uint32_t set_up_depths(const PersonMesh& mesh, const FacingTriangle* facing, std::uint32_t alive, const LitVertex* vertices,
                    EdgeGroup& out) {
     const Floats f;
+    constexpr float flat_enough = 0.98f;  // of depths, nearest by farthest
+    std::uint32_t flat = 0;
     alignas(64) float corner[3][group] = {};
     for (std::uint32_t left = alive; left != 0; left &= left - 1) {
         const int t = std::countr_zero(left);
@@ -399,6 +402,9 @@ void set_up_depths(const PersonMesh& mesh, const FacingTriangle* facing, std::ui
         const auto scale = hn::Load(f, out.scale + lane);
         constexpr float rounding = 1.0f + 1e-6f;
         const auto nearest = hn::Max(at, hn::Max(at_second, at_third));
+        const auto farthest = hn::Min(at, hn::Min(at_second, at_third));
+        const auto is_flat = hn::Ge(farthest, hn::Mul(nearest, hn::Set(f, flat_enough)));
+        flat |= bits_of(hn::RebindMask(Ints(), is_flat)) << lane;
         hn::Store(hn::Mul(nearest, hn::Set(f, rounding)), f, out.nearest + lane);
         hn::Store(hn::Add(hn::Add(at, hn::Mul(second, hn::Load(f, out.rest[0] + lane))),
                           hn::Mul(third, hn::Load(f, out.rest[1] + lane))),
@@ -406,6 +412,7 @@ void set_up_depths(const PersonMesh& mesh, const FacingTriangle* facing, std::ui
         hn::Store(hn::Mul(second, scale), f, out.depth_second + lane);
         hn::Store(hn::Mul(third, scale), f, out.depth_third + lane);
     }
+    return flat;
 }
 
 // What a person is drawn with.
@@ -414,12 +421,6 @@ struct Dress {
     const LitVertex* vertices;
     const Tint* tints;
 };
-
-bool is_flat(const Dress& dress, const FacingCorners& corners) {
-    constexpr float flat_enough = 0.99f;  // of depths, nearest by farthest: their perspective doesn't show
-    const auto depth = [&](int k) { return dress.vertices[corners.numbers[k]].depth; };
-    return std::min({depth(0), depth(1), depth(2)}) >= flat_enough * std::max({depth(0), depth(1), depth(2)});
-}
 
 using FourFloats = hn::Vec<Four>;
 
@@ -491,17 +492,16 @@ RichShading rich_shading(const Dress& dress, const FacingCorners& corners, const
     return rich_shading(dress.mesh.textures, all, corners.face->layer, slopes);
 }
 
-HWY_NOINLINE void find_shading(const Dress& dress, std::uint32_t number, const EdgeGroup& edges, int t,
+HWY_NOINLINE void find_shading(const Dress& dress, std::uint32_t number, bool is_flat, const EdgeGroup& edges, int t,
                                Shading& shading) {
     const FacingCorners corners = corners_of(dress.mesh, number);
-    if (corners.face->layer == untextured && is_flat(dress, corners)) {
+    if (corners.face->layer == untextured && is_flat) {
         find_flat_shading(dress, corners, edges, t, shading);
         return;
     }
     const auto slope = [&](int steps) { return static_cast<float>(steps) * edges.scale[t]; };
     shading.rich = rich_shading(
-        dress, corners,
-        {slope(edges.along(1, t)), slope(edges.down(1, t)), slope(edges.along(2, t)), slope(edges.down(2, t))});
+        dress, corners, {slope(edges.along(1, t)), slope(edges.down(1, t)), slope(edges.along(2, t)), slope(edges.down(2, t))});
     shading.kind = Shading::Kind::rich;
 }
 
@@ -545,8 +545,7 @@ std::uint32_t touched_blocks(const EdgeGroup& edges, int t, const std::int32_t (
     for (int lane = 0; lane < group; lane += lanes) {
         auto outside = hn::Zero(i);
         for (int k = 0; k < 3; ++k)
-            outside =
-                hn::Or(outside, edge_at(edges.slope[k][t], start[k] + edges.most[k][t], square_offsets.blocks, lane));
+            outside = hn::Or(outside, edge_at(edges.slope[k][t], start[k] + edges.most[k][t], square_offsets.blocks, lane));
         touched |= bits_of(hn::Gt(outside, hn::Set(i, -1))) << lane;
     }
     return touched;
@@ -584,7 +583,9 @@ void fill_block(const EdgeGroup& edges, int t, const std::int32_t (&start)[3], i
     const Ints i;
     bool changed = false;
     for (int lane = 0; lane < group; lane += lanes) {
-        const auto edge = [&](int k) { return edge_at(edges.slope[k][t], start[k], square_offsets.samples[b], lane); };
+        const auto edge = [&](int k) {
+            return edge_at(edges.slope[k][t], start[k], square_offsets.samples[b], lane);
+        };
         const auto edge1 = edge(1), edge2 = edge(2);
         FloatMask mask = hn::RebindMask(f, hn::Gt(hn::Or(hn::Or(edge(0), edge1), edge2), hn::Set(i, -1)));
         const auto exact1 = hn::ConvertTo(f, edge1), exact2 = hn::ConvertTo(f, edge2);
@@ -604,6 +605,7 @@ struct Filling {
     int t;
     std::uint32_t face;
     int column, row;
+    bool is_flat;
 };
 
 // Blocks `some` of the square that begins x to the right and y below of the first; `start`: the edges there.
@@ -611,8 +613,9 @@ void fill_blocks(const Filling& by, int x, int y, const std::int32_t (&start)[3]
                  NearLayer& layer) {
     for (; some != 0; some &= some - 1) {
         const int b = std::countr_zero(some);
-        fill_block(by.edges, by.t, start, b, layer.block(by.column + x + b % square_side, by.row + y + b / square_side),
-                   shading, [&] { find_shading(by.dress, by.face, by.edges, by.t, shading); });
+        fill_block(by.edges, by.t, start, b,
+                   layer.block(by.column + x + b % square_side, by.row + y + b / square_side), shading,
+                   [&] { find_shading(by.dress, by.face, by.is_flat, by.edges, by.t, shading); });
     }
 }
 
@@ -623,9 +626,9 @@ HWY_NOINLINE void fill_large(const Filling& by, int columns, int rows, NearLayer
     Shading shading;
     for (int y = 0; y < rows; y += square_side) {
         for (int x = 0; x < columns; x += square_side) {
-            const std::uint32_t open = within.columns[std::min(columns - x, square_side)] &
-                                       within.rows[std::min(rows - y, square_side)] &
-                                       open_blocks(layer.farthest(by.column + x, by.row + y), edges.nearest[t]);
+            const std::uint32_t open =
+                within.columns[std::min(columns - x, square_side)] & within.rows[std::min(rows - y, square_side)] &
+                open_blocks(layer.farthest(by.column + x, by.row + y), edges.nearest[t]);
             if (open == 0) continue;
             std::int32_t start[3];
             for (int k = 0; k < 3; ++k)
@@ -645,8 +648,8 @@ void fill_triangle(const Filling& by, NearLayer& layer) {
     const int t = by.t;
     const int columns = edges.end_column[t] - edges.first_column[t], rows = edges.end_row[t] - edges.first_row[t];
     if (columns > square_side || rows > square_side) return fill_large(by, columns, rows, layer);
-    const std::uint32_t open =
-        within.columns[columns] & within.rows[rows] & open_blocks(layer.farthest(by.column, by.row), edges.nearest[t]);
+    const std::uint32_t open = within.columns[columns] & within.rows[rows] &
+                               open_blocks(layer.farthest(by.column, by.row), edges.nearest[t]);
     if (open == 0) return;
     const std::int32_t start[3] = {edges.start[0][t], edges.start[1][t], edges.start[2][t]};
     const std::uint32_t some = open & touched_blocks(edges, t, start);
@@ -705,11 +708,11 @@ void fill_person(const PersonMesh& mesh, const PersonOnGrid& person, NearLayer& 
         std::uint32_t alive = set_up_edges(facing, within_person, edges);
         if (person.facing.size() - first < group) alive &= (1u << (person.facing.size() - first)) - 1;
         if (alive == 0) continue;
-        set_up_depths(mesh, facing, alive, person.vertices, edges);
+        const std::uint32_t flat = set_up_depths(mesh, facing, alive, person.vertices, edges);
         for (; alive != 0; alive &= alive - 1) {
             const int t = std::countr_zero(alive);
             fill_triangle({dress, edges, t, facing[t].face, origin_column + edges.first_column[t],
-                           origin_row + edges.first_row[t]},
+                           origin_row + edges.first_row[t], (flat >> t & 1) != 0},
                           layer);
         }
     }

@@ -139,11 +139,15 @@ hn::Mask<Ints> holds_sample(VInt least, VInt most) {
 }
 static_assert(grid_per_sample == 16);
 
-// Those of one vector that are to be kept; writes a vector's worth. By scalars: what compresses vectors is slow where
-// it is a table's work.
+// Those of one vector that are to be kept; writes a vector's worth. By scalars where compressing is a table's work.
 std::uint32_t append(hn::Vec<Words> a, hn::Vec<Words> b, hn::Vec<Words> c, hn::Vec<Words> face, hn::Mask<Words> keep,
                      FacingTriangle* to) {
     const Words w;
+#if HWY_TARGET <= HWY_AVX3
+    hn::StoreInterleaved4(hn::Compress(a, keep), hn::Compress(b, keep), hn::Compress(c, keep), hn::Compress(face, keep),
+                          w, to->corners);
+    return static_cast<std::uint32_t>(hn::CountTrue(w, keep));
+#else
     FacingTriangle all[group];
     std::uint8_t bytes[8] = {};  // as many as may be written
     hn::StoreInterleaved4(a, b, c, face, w, all[0].corners);
@@ -155,6 +159,7 @@ std::uint32_t append(hn::Vec<Words> a, hn::Vec<Words> b, hn::Vec<Words> c, hn::V
         count += bits >> lane & 1;
     }
     return count;
+#endif
 }
 
 std::uint32_t find_all_facing(const PersonMesh& mesh, const std::uint32_t* packed, FacingTriangle* to) {
