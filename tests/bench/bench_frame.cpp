@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -205,19 +206,13 @@ void price(benchmark::State& state, const std::string& preset, const sfsm::Decis
 
 // --- accuracy --------------------------------------------------------------------------------------------------------
 
-void show_errors(benchmark::State& state, const std::string& preset, const bench::Errors& errors) {
-    for (auto _ : state) bench::errors_of_preset(preset);
+void show_errors(benchmark::State& state, const std::string& preset,
+                 const std::function<bench::Errors(const bench::PresetErrors&)>& part) {
+    bench::Errors errors;
+    for (auto _ : state) errors = part(bench::errors_of_preset(preset));
     state.counters["flip"] = errors.flip;
     state.counters["psnr"] = errors.psnr;
     state.counters["ssim"] = errors.ssim;
-}
-
-void errors_of_triangles(benchmark::State& state, const std::string& preset) {
-    show_errors(state, preset, bench::errors_of_preset(preset).triangles);
-}
-
-void errors_natively(benchmark::State& state, const std::string& preset, std::size_t splat_size) {
-    show_errors(state, preset, bench::errors_of_preset(preset).native[splat_size]);
 }
 
 void show_light(benchmark::State& state, std::size_t elevation, std::size_t height, std::size_t splat_size) {
@@ -236,7 +231,7 @@ void sum_up_light(benchmark::State& state) {
     for (auto _ : state)
         for (std::size_t e = 0; e < std::size(bench::stand_elevations); ++e)
             for (std::size_t h = 0; h < std::size(bench::stand_heights); ++h)
-                for (std::size_t s = 0; s < std::size(bench::stand_splat_sizes); ++s) {
+                for (std::size_t s = 1; s < std::size(bench::stand_splat_sizes); ++s) {
                     const bench::LightError& error = bench::light_error(e, h, s);
                     brightness.push_back(std::abs(error.brightness));
                     for (int c = 0; c < 3; ++c) channels.push_back(std::abs(error.channels[c]));
@@ -305,15 +300,17 @@ void register_prices() {
 }
 
 void register_accuracy() {
-    const auto once = [](benchmark::internal::Benchmark* one) {
-        one->Iterations(1)->Unit(benchmark::kMillisecond);
-    };
+    const auto once = [](benchmark::internal::Benchmark* one) { one->Iterations(1)->Unit(benchmark::kMillisecond); };
     for (const std::string preset : shot_presets) {
-        once(benchmark::RegisterBenchmark(("error/" + preset + "/gl_triangles").c_str(), errors_of_triangles, preset));
+        const auto add = [&](const std::string& name, std::function<bench::Errors(const bench::PresetErrors&)> part) {
+            once(benchmark::RegisterBenchmark(("error/" + preset + "/" + name).c_str(), show_errors, preset, part));
+        };
+        add("gl_triangles", [](const bench::PresetErrors& errors) { return errors.triangles; });
         for (std::size_t i = 0; i < std::size(bench::tried_splat_sizes); ++i)
-            once(benchmark::RegisterBenchmark(
-                with_size(("error/" + preset + "/native/S:").c_str(), bench::tried_splat_sizes[i]).c_str(),
-                errors_natively, preset, i));
+            add(with_size("native/S:", bench::tried_splat_sizes[i]),
+                [i](const bench::PresetErrors& errors) { return errors.native[i]; });
+        add("nobody/gl", [](const bench::PresetErrors& errors) { return errors.triangles_nobody; });
+        add("nobody/native", [](const bench::PresetErrors& errors) { return errors.native_nobody; });
     }
     constexpr const char* angles[] = {"front", "above"};
     static_assert(std::size(angles) == std::size(bench::stand_elevations));
@@ -327,10 +324,13 @@ void register_accuracy() {
             }
     once(benchmark::RegisterBenchmark("light/all", sum_up_light));
     for (const std::string preset : {"still", "medium"}) {
-        const auto add = [&](const char* move, bench::Change (*change)(const std::string&)) {
-            once(benchmark::RegisterBenchmark(("change/" + preset + "/" + move).c_str(), [=](benchmark::State& state) {
-                show_change(state, [&] { return change(preset); });
-            }));
+        const auto add = [&](const std::string& move, bench::Change (*change)(const std::string&, bench::Present)) {
+            for (const bench::Present present : {bench::Present::everybody, bench::Present::nobody}) {
+                const char* who = present == bench::Present::nobody ? "/nobody" : "";
+                once(benchmark::RegisterBenchmark(
+                    ("change/" + preset + "/" + move + who).c_str(),
+                    [=](benchmark::State& state) { show_change(state, [&] { return change(preset, present); }); }));
+            }
         };
         add("backing", bench::change_backing);
         add("panning", bench::change_panning);

@@ -26,20 +26,23 @@ struct Shots {
     render::Image reference, triangles, native[std::size(change_splat_sizes)];
 };
 
-Shots shoot(Shooting& here, const scene::CameraPose& pose, std::int64_t tick) {
+Shots shoot(Shooting& here, Present present, const scene::CameraPose& pose, std::int64_t tick) {
+    const bool empty = present == Present::nobody;
+    Shooter& gl = empty ? here.gl_nobody : here.gl;
+    Shooter& native = empty ? here.native_nobody : here.native;
     const render::View view = render::make_view(pose, width, height);
-    Shots shots{here.reference(pose, width, height, tick), here.gl.picture(view, triangles(), tick), {}};
+    Shots shots{reference(gl, pose, width, height, tick), gl.picture(view, triangles(), tick), {}};
     for (std::size_t i = 0; i < std::size(change_splat_sizes); ++i)
-        shots.native[i] = here.native.picture(view, points_of(change_splat_sizes[i]), tick);
+        shots.native[i] = native.picture(view, points_of(change_splat_sizes[i]), tick);
     return shots;
 }
 
-Change follow(Shooting& here, int frames, const std::function<scene::CameraPose(int frame)>& camera) {
+Change follow(Shooting& here, Present present, int frames, const std::function<scene::CameraPose(int frame)>& camera) {
     Change change;
     Shots before;
     const double share = 1.0 / (frames - 1);
     for (int frame = 0; frame < frames; ++frame) {
-        Shots now = shoot(here, camera(frame), first_tick + frame);
+        Shots now = shoot(here, present, camera(frame), first_tick + frame);
         if (frame > 0) {
             const auto off = [&](const render::Image& last, const render::Image& current) {
                 return apart(last, current, before.reference, now.reference);
@@ -67,27 +70,27 @@ scene::CameraPose middle_of(scene::CameraPose pose) {
     return pose;
 }
 
-constexpr int preset_frames = 12;
+constexpr int preset_frames = 8;
 
 }  // namespace
 
-Change change_backing(const std::string& name) {
+Change change_backing(const std::string& name, Present present) {
     constexpr double step = 0.05;  // [m]
     const scene::CameraPose start = middle_of(preset(name));
     const glm::dvec3 ahead = glm::normalize(start.target - start.position);
-    return follow(stadium(), preset_frames, [&](int frame) {
+    return follow(stadium(), present, preset_frames, [&](int frame) {
         scene::CameraPose pose = start;
         pose.position -= step * frame * ahead;
         return pose;
     });
 }
 
-Change change_panning(const std::string& name) {
+Change change_panning(const std::string& name, Present present) {
     constexpr double step = 1.5;  // [px]
     const scene::CameraPose start = middle_of(preset(name));
     const glm::dvec3 ahead = start.target - start.position;
     const double turn = step * 2 * std::tan(0.5 * start.fov_y) / height;  // [rad] a frame
-    return follow(stadium(), preset_frames, [&](int frame) {
+    return follow(stadium(), present, preset_frames, [&](int frame) {
         const double angle = turn * frame, c = std::cos(angle), s = std::sin(angle);
         scene::CameraPose pose = start;
         pose.target = pose.position + glm::dvec3(c * ahead.x + s * ahead.z, ahead.y, c * ahead.z - s * ahead.x);
@@ -110,7 +113,7 @@ Change change_of_group() {
         facing += glm::dvec3(std::sin(crowd.yaw[i]), 0, std::cos(crowd.yaw[i]));
     }
     const glm::dvec3 away = std::cos(elevation) * glm::normalize(facing) + std::sin(elevation) * glm::dvec3(0, 1, 0);
-    return follow(here, frames, [&](int frame) {
+    return follow(here, Present::everybody, frames, [&](int frame) {
         const double pixels = tallest * std::pow(smallest / tallest, static_cast<double>(frame) / (frames - 1));
         scene::CameraPose pose;
         pose.target = middle;

@@ -8,7 +8,7 @@
 
 namespace bench {
 
-inline constexpr double change_splat_sizes[] = {0.5, 1};  // [px]
+inline constexpr double change_splat_sizes[] = {0, 0.5, 1};  // [px]; 0: triangles, natively
 
 // Means over frames and pixels of |(test - test before) - (reference - reference before)| [of 255 codes].
 struct Change {
@@ -21,9 +21,10 @@ struct Change {
 };
 
 // The middle of a preset's picture, 640x360 pixels of its 1280x720, while people move and the camera backs away by 5 cm
-// a frame, or turns by 1.5 pixels a frame.
-Change change_backing(const std::string& preset);
-Change change_panning(const std::string& preset);
+// a frame, or turns by 1.5 pixels a frame. Nobody: what the stadium alone has of it.
+enum class Present { everybody, nobody };
+Change change_backing(const std::string& preset, Present present);
+Change change_panning(const std::string& preset, Present present);
 
 // Some fifty people before the sky as the camera backs away until those who were 150 pixels tall are 15: from triangles
 // to points.

@@ -28,10 +28,13 @@ const PresetErrors& errors_of_preset(const std::string& name) {
     const scene::CameraPose pose = preset(name);
     const render::View view = render::make_view(pose, frame_width, frame_height);
     Shooting& here = stadium();
-    const render::Image reference = here.reference(pose, frame_width, frame_height, tick);
+    const render::Image reference = bench::reference(here.gl, pose, frame_width, frame_height, tick);
     errors.triangles = errors_of(reference, here.gl.picture(view, bench::triangles(), tick));
     for (const double splat_size : tried_splat_sizes)
         errors.native.push_back(errors_of(reference, here.native.picture(view, points_of(splat_size), tick)));
+    const render::Image empty = bench::reference(here.gl_nobody, pose, frame_width, frame_height, tick);
+    errors.triangles_nobody = errors_of(empty, here.gl_nobody.picture(view, bench::triangles(), tick));
+    errors.native_nobody = errors_of(empty, here.native_nobody.picture(view, bench::triangles(), tick));
     return errors;
 }
 

@@ -24,8 +24,9 @@ Errors errors_of(const render::Image& reference, const render::Image& test);
 inline constexpr double tried_splat_sizes[] = {4, 2.8, 2, 1.4, 1, 0.7, 0.5, 0};
 
 struct PresetErrors {
-    Errors triangles;            // at one sample, by OpenGL
-    std::vector<Errors> native;  // one a tried splat size
+    Errors triangles;                        // at one sample, by OpenGL
+    std::vector<Errors> native;              // one a tried splat size
+    Errors triangles_nobody, native_nobody;  // of the stadium alone, against its own reference
 
     // The first of the tried ones that is as good as triangles; the finest if none is.
     std::size_t chosen() const;

@@ -64,7 +64,7 @@ Shooting::Shooting(const apps::Stage& shown, const scene::Crowd& crowd, const sc
       gl(gl_renderer, crowd, stage, figures::by_opengl()),
       gl_nobody(gl_renderer, nobody, stage, figures::by_opengl()) {}
 
-render::Image Shooting::reference(const scene::CameraPose& pose, int width, int height, std::int64_t tick) {
+render::Image reference(Shooter& gl, const scene::CameraPose& pose, int width, int height, std::int64_t tick) {
     const render::View view = render::make_view(pose, reference_factor * width, reference_factor * height);
     return box_filtered(gl.picture(view, triangles(), tick), reference_factor);
 }
@@ -86,7 +86,9 @@ scene::CameraPose preset(std::string_view name) {
 
 scene::Crowd some_of(const scene::Crowd& crowd, std::uint32_t first, std::uint32_t count) {
     scene::Crowd some;
-    const auto copy = [&](const auto& from, auto& to) { to.assign(from.begin() + first, from.begin() + first + count); };
+    const auto copy = [&](const auto& from, auto& to) {
+        to.assign(from.begin() + first, from.begin() + first + count);
+    };
     copy(crowd.position, some.position);
     copy(crowd.yaw, some.yaw);
     copy(crowd.height, some.height);

@@ -52,10 +52,10 @@ struct Shooting {
     // `crowd` and `stage` must outlive it. Needs a current context.
     Shooting(const apps::Stage& stage, const scene::Crowd& crowd, const scene::StaticMesh& structure,
              const scene::Ground& ground, const scene::Light& light);
-
-    // The 16-sample picture: triangles by OpenGL, `factor` times larger, box-filtered in linear light.
-    render::Image reference(const scene::CameraPose& pose, int width, int height, std::int64_t tick);
 };
+
+// The 16-sample picture: triangles by OpenGL, 4 times as wide and high, box-filtered in linear light.
+render::Image reference(Shooter& gl, const scene::CameraPose& pose, int width, int height, std::int64_t tick);
 
 // 20,000 people. Made when first asked for, once.
 Shooting& stadium();

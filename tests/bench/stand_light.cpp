@@ -77,8 +77,9 @@ public:
             const std::int64_t tick = 100 + 97 * shot;
             const View view = aim(elevation, pixels, shot);
             const render::View fine = view.enlarged(factor);
-            reference += 1.0 / (factor * factor) * light_of(black_.gl.picture(fine, triangles(), tick),
-                                                            white_.gl.picture(fine, triangles(), tick));
+            reference +=
+                1.0 / (factor * factor) *
+                light_of(black_.gl.picture(fine, triangles(), tick), white_.gl.picture(fine, triangles(), tick));
             for (std::size_t i = 0; i < splat_sizes; ++i) {
                 const sfsm::Decision decision = points_of(stand_splat_sizes[i]);
                 native[i] += light_of(black_.native.picture(view.enlarged(1), decision, tick),
@@ -125,11 +126,11 @@ private:
         view.height = std::min(side, most_height);
         const glm::dvec3 beside(-facing_.z, 0, facing_.x);
         const double shift = 0.618034 * shot, rise = 0.754878 * shot;
-        const glm::dvec3 off = ((shift - std::floor(shift)) * beside + (rise - std::floor(rise)) * glm::dvec3(0, 1, 0)) /
-                               per_metre;
+        const glm::dvec3 off =
+            ((shift - std::floor(shift)) * beside + (rise - std::floor(rise)) * glm::dvec3(0, 1, 0)) / per_metre;
         view.pose.target = glm::dvec3(box.center()) + off;
-        view.pose.position = view.pose.target + distance * (std::cos(elevation) * facing_ +
-                                                            std::sin(elevation) * glm::dvec3(0, 1, 0));
+        view.pose.position =
+            view.pose.target + distance * (std::cos(elevation) * facing_ + std::sin(elevation) * glm::dvec3(0, 1, 0));
         view.pose.fov_y = 2 * std::atan(0.5 * view.height / (per_metre * distance));
         return view;
     }
@@ -137,7 +138,7 @@ private:
     const apps::Stage& stage_;
     const scene::Crowd crowd_;
     Shooting black_, white_;
-    double height_ = 0;      // [m] mean
+    double height_ = 0;     // [m] mean
     glm::dvec3 facing_{0};  // unit
 };
 
