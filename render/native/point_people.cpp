@@ -33,7 +33,7 @@ struct Turn {
 }  // namespace
 
 PointPeople::PointPeople(std::span<const figures::Figure> figures, const scene::Light& light)
-    : figures_(figures.begin(), figures.end()), kinds_(figures.size()), to_sun_(light.to_sun) {
+    : figures_(figures.begin(), figures.end()), kinds_(figures.size()), daylight_(light) {
     constexpr float one = 16384.0f;
     light_.level = fixed(0.5f * (light.from_below + light.from_above), one);
     light_.slope = fixed(0.5f * normal_unit * (light.from_above - light.from_below), one);
@@ -74,7 +74,7 @@ void SplatPerson::prefetch() const {
 }
 
 void PointPeople::make_kind(std::uint32_t character) {
-    kinds_[character] = std::make_unique<Kind>(figures_[character]);
+    kinds_[character] = std::make_unique<Kind>(figures_[character], daylight_);
     Gains gains;
     gains.measure([&](float cells, float points, int trial) { return draw_alone(character, cells, points, trial); },
                   static_cast<float>(kinds_[character]->model.points()));
@@ -194,7 +194,8 @@ SplatPerson PointPeople::ready(const View& view, const Person& person, float cel
 
     const glm::vec3 to_eye = turn.to_model(-glm::normalize(middle));
     out.to_eye = fixed(to_eye);
-    out.to_sun = fixed(turn.to_model(to_sun_));
+    const glm::vec3 to_sun = turn.to_model(daylight_.to_sun);
+    out.to_sun = fixed(to_sun);
     out.two_sided = out.count <= longest_two_sided_prefix;
 
     const float samples = static_cast<float>(person.count - 1) + person.last_share;
@@ -229,6 +230,14 @@ SplatPerson PointPeople::ready(const View& view, const Person& person, float cel
         for (int slot = 1; slot <= model::slot_count; ++slot) {
             const float share = static_cast<float>(instance.palette[static_cast<model::Slot>(slot)][channel]) / 255.0f;
             out.palette[channel][slot] = fixed(share * share);
+        }
+    }
+    if (out.total > 0.0f) {
+        const SplatModel::SlotLights lights = model.lights(person.pose, between, to_sun);
+        for (int channel = 0; channel < 3; ++channel) {
+            out.mean_light[channel] = 0.0f;
+            for (int slot = 0; slot <= model::slot_count; ++slot)
+                out.mean_light[channel] += lights[slot][channel] * (out.palette[channel][slot] / unit);
         }
     }
     return out;

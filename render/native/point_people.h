@@ -30,7 +30,7 @@ public:
 private:
     // A character's model, and what its points' areas are multiplied by.
     struct Kind {
-        explicit Kind(const figures::Figure& figure) : model(figure) {}
+        Kind(const figures::Figure& figure, const scene::Light& light) : model(figure, light) {}
         SplatModel model;
         Gains gains;
     };
@@ -41,7 +41,7 @@ private:
 
     std::vector<figures::Figure> figures_;
     std::vector<std::unique_ptr<Kind>> kinds_;  // by character; null: not needed yet
-    glm::vec3 to_sun_;
+    scene::Light daylight_;
     SplatLight light_;
     std::vector<SplatPerson> people_;
     std::vector<Rect> bounds_;

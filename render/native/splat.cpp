@@ -73,43 +73,12 @@ int chunks_of(const SplatPerson& person) {
     return (person.count + chunk_points - 1) / chunk_points;
 }
 
-// Of short prefixes, what each point shows is needed twice: to sum it up, and to draw it.
-struct Parts {
-    alignas(64) std::int16_t of[longest_summed_prefix];
-};
-
-// What all points show together, in quarters of areas of one.
-float sum_shown(const SplatPerson& person, Parts& parts) {
-    const hn::RepartitionToWide<Lanes> wide;
-    auto sum = hn::Zero(wide);
-    for (int chunk = 0; chunk < chunks_of(person); ++chunk) {
-        for (int lane = 0; lane < chunk_points; lane += static_cast<int>(hn::Lanes(lanes))) {
-            const Vector part = shown(person, chunk, lane);
-            hn::Store(part, lanes, parts.of + chunk * chunk_points + lane);
-            sum = hn::Add(sum, hn::Add(hn::PromoteTo(wide, hn::LowerHalf(part)),
-                                       hn::PromoteTo(wide, hn::UpperHalf(hn::Half<Lanes>(), part))));
-        }
-    }
-    return static_cast<float>(hn::GetLane(hn::SumOfLanes(wide, sum))) / 32767.0f;
-}
-
-// What a point that shows all of its area covers: `steps` of which one is 2^shift of a cell's.
-struct Area {
-    std::int16_t steps;
-    int shift;
-};
-
-Area area_of(const SplatPerson& person, Parts& parts) {
-    float each = 4.0f * person.area_each;
-    if (person.total > 0.0f) {
-        const float sum = sum_shown(person, parts);
-        each = sum > 0.0f ? person.total / sum : 0.0f;
-    }
-    constexpr float most = 32767.0f;
-    float steps = each * cell_full;
-    int shift = 0;
-    for (; steps > most && shift < 3; ++shift) steps *= 0.5f;
-    return {static_cast<std::int16_t>(std::min(steps + 0.5f, most)), shift};
+// Normals of points that are seen from behind show that side's light.
+void turn_to_eye(const SplatPerson& person, int chunk, int lane, Vector* normal) {
+    Vector facet[3];
+    load_directions(person.facets + chunk * 3 * chunk_points + lane, facet);
+    const auto away = hn::Lt(dot(facet, person.to_eye), hn::Zero(lanes));
+    for (int axis = 0; axis < 3; ++axis) normal[axis] = hn::IfThenElse(away, hn::Neg(normal[axis]), normal[axis]);
 }
 
 // What is found of a chunk before it is added to the patch. One more at the end: they are read eight bytes at a time.
@@ -136,6 +105,83 @@ Vector albedo(const SplatPerson& person, int channel, int chunk, int lane, Vecto
     const auto table = hn::LoadDup128(lanes, person.palette[channel].data());
     const Vector tint = hn::TableLookupBytes(table, hn::BitCast(lanes, hn::BitCast(bytes, index_bytes)));
     return times(own, tint);
+}
+
+// Linear light that each point sends, 32767 = 1.
+void find_colors(const SplatPerson& person, const SplatLight& light, int chunk, int lane, Vector* color) {
+    Vector normal[3];
+    load_directions(person.normals + chunk * 3 * chunk_points + lane, normal);
+    if (person.two_sided) turn_to_eye(person, chunk, lane, normal);
+    const Vector sunlit = hn::Max(dot(normal, person.to_sun), hn::Zero(lanes));
+    const Vector index =
+        hn::Load(lanes, reinterpret_cast<const std::int16_t*>(person.slots) + chunk * chunk_points + lane);
+    for (int channel = 0; channel < 3; ++channel) {
+        const Vector lit = hn::Add(hn::Add(all(light.level[channel]), times(normal[1], all(light.slope[channel]))),
+                                   times(sunlit, all(light.sun[channel])));
+        const Vector half = hn::Min(times(lit, albedo(person, channel, chunk, lane, index)), all(16383));
+        color[channel] = hn::Add(half, half);
+    }
+}
+
+// Of short prefixes, what each point shows and sends is needed twice: to sum it up, and to draw it.
+struct Parts {
+    alignas(64) std::int16_t of[longest_summed_prefix];
+    alignas(64) std::int16_t color[3][longest_summed_prefix];
+    std::array<std::int16_t, 3> scale{};  // of colours, 8192 = 1
+};
+
+auto widened(Vector v) {
+    const hn::RepartitionToWide<Lanes> wide;
+    return hn::Add(hn::PromoteTo(wide, hn::LowerHalf(v)), hn::PromoteTo(wide, hn::UpperHalf(hn::Half<Lanes>(), v)));
+}
+
+// What all points show together, in quarters of areas of one. Their colours are made to send the mean light.
+float sum_up(const SplatPerson& person, const SplatLight& light, Parts& parts) {
+    const hn::RepartitionToWide<Lanes> wide;
+    auto shown_sum = hn::Zero(wide);
+    auto red = hn::Zero(wide), green = hn::Zero(wide), blue = hn::Zero(wide);
+    for (int chunk = 0; chunk < chunks_of(person); ++chunk) {
+        for (int lane = 0; lane < chunk_points; lane += static_cast<int>(hn::Lanes(lanes))) {
+            const int at = chunk * chunk_points + lane;
+            const Vector part = shown(person, chunk, lane);
+            Vector color[3];
+            find_colors(person, light, chunk, lane, color);
+            hn::Store(part, lanes, parts.of + at);
+            for (int channel = 0; channel < 3; ++channel) hn::Store(color[channel], lanes, parts.color[channel] + at);
+            shown_sum = hn::Add(shown_sum, widened(part));
+            red = hn::Add(red, widened(times(part, color[0])));
+            green = hn::Add(green, widened(times(part, color[1])));
+            blue = hn::Add(blue, widened(times(part, color[2])));
+        }
+    }
+    const auto total = [&](auto sum) HWY_ATTR { return static_cast<float>(hn::GetLane(hn::SumOfLanes(wide, sum))); };
+    const float sum = total(shown_sum);
+    const std::array<float, 3> sent{total(red), total(green), total(blue)};
+    for (int channel = 0; channel < 3; ++channel) {
+        constexpr float most = 3.9f;
+        const float scale = sent[channel] > 0.0f ? person.mean_light[channel] * sum / sent[channel] : 0.0f;
+        parts.scale[channel] = static_cast<std::int16_t>(std::min(scale, most) * 8192.0f);
+    }
+    return sum / 32767.0f;
+}
+
+// What a point that shows all of its area covers: `steps` of which one is 2^shift of a cell's.
+struct Area {
+    std::int16_t steps;
+    int shift;
+};
+
+Area area_of(const SplatPerson& person, const SplatLight& light, Parts& parts) {
+    float each = 4.0f * person.area_each;
+    if (person.total > 0.0f) {
+        const float sum = sum_up(person, light, parts);
+        each = sum > 0.0f ? person.total / sum : 0.0f;
+    }
+    constexpr float most = 32767.0f;
+    float steps = each * cell_full;
+    int shift = 0;
+    for (; steps > most && shift < 3; ++shift) steps *= 0.5f;
+    return {static_cast<std::int16_t>(std::min(steps + 0.5f, most)), shift};
 }
 
 struct Place {
@@ -172,19 +218,17 @@ void stage(const SplatPerson& person, const SplatLight& light, const Patch& patc
     out.used |= mask << lane;
     if (mask == 0) return;
 
-    Vector normal[3];
-    load_directions(person.normals + chunk * 3 * chunk_points + lane, normal);
-    const Vector sunlit = hn::Max(dot(normal, person.to_sun), hn::Zero(lanes));
-    const Vector index = hn::Load(hn::Rebind<std::int16_t, Lanes>(),
-                                  reinterpret_cast<const std::int16_t*>(person.slots) + chunk * chunk_points + lane);
     Vector shade[3];
-    const Vector up = normal[1];
-    for (int channel = 0; channel < 3; ++channel) {
-        const Vector lit = hn::Add(hn::Add(all(light.level[channel]), times(up, all(light.slope[channel]))),
-                                   times(sunlit, all(light.sun[channel])));
-        const Vector color = hn::Min(times(lit, albedo(person, channel, chunk, lane, index)), all(16383));
-        shade[channel] = times(hn::Add(color, color), cover);
+    if (parts) {
+        for (int channel = 0; channel < 3; ++channel) {
+            const Vector color = hn::Load(lanes, parts->color[channel] + chunk * chunk_points + lane);
+            const Vector quarter = hn::Min(times(color, all(parts->scale[channel])), all(8191));
+            shade[channel] = hn::ShiftLeft<2>(quarter);
+        }
+    } else {
+        find_colors(person, light, chunk, lane, shade);
     }
+    for (Vector& channel : shade) channel = times(channel, cover);
     hn::StoreInterleaved4(shade[0], shade[1], shade[2], cover, lanes,
                           reinterpret_cast<std::int16_t*>(out.light_and_area + lane));
     hn::Store(times(back, cover), lanes, out.back + lane);
@@ -231,7 +275,7 @@ void add(const Staged& staged, const Patch& patch, int i) {
 
 void Splat(const SplatPerson& person, const SplatLight& light, const Patch& patch) {
     Parts parts;
-    const Area area = area_of(person, parts);
+    const Area area = area_of(person, light, parts);
     if (area.steps == 0) return;
     // From the middle of the patch's first cell, where all of a point would go.
     const auto place_of = [](std::int32_t middle, int first) {

@@ -47,6 +47,8 @@ struct SplatPerson {
     std::int16_t last_share;
     float silhouette;    // [cells]
     float total;         // [cells] that the points add up to; 0: to what `area_each` gives
+    // Of few points also their colours depend on which they are: together they send this light, 1 = white.
+    std::array<float, 3> mean_light;
     float area_each;     // [cells] of a point that faces the eye, with a facet and a share of 1
     float depth, reach;  // [m] view depth of the middle; how far a point may be from it
     // The depth again, and how deep a body is: who is no farther apart than this can't be in front of one another.

@@ -33,16 +33,29 @@ constexpr std::uint32_t first_rung = 1;  // two points
 constexpr float facet_unit = 64.0f;
 constexpr float share_unit = 16384.0f;
 
+// The sun goes around a body in so many steps; its height is the place's.
+constexpr int sun_azimuths = 8;
+constexpr int light_values = sun_azimuths * (1 + model::slot_count) * 3;
+constexpr float light_unit = 16384.0f;
+constexpr int lit_points = 512;  // as many tell what light a body sends
+
+glm::vec3 sun_at(int azimuth, glm::vec3 to_sun) {
+    const float angle = 6.2831853f * static_cast<float>(azimuth) / sun_azimuths;
+    const float out = std::sqrt(std::max(0.0f, 1.0f - to_sun.y * to_sun.y));
+    return {out * std::sin(angle), to_sun.y, out * std::cos(angle)};
+}
+
 // So many triangles and points are looked at, over all directions and key poses.
 constexpr double look_budget = 1.5e8;
 
 }  // namespace
 
-SplatModel::SplatModel(const figures::Figure& figure)
+SplatModel::SplatModel(const figures::Figure& figure, const scene::Light& light)
     : points_(figure.poses->point_count),
       chunks_((points_ + chunk_points - 1) / chunk_points),
       double_sided_(figure.mesh->double_sided()),
-      area_(figure.poses->area) {
+      area_(figure.poses->area),
+      light_(light) {
     if (points_ == 0) return;
     pack_poses(figure);
     pack_looks(figure);
@@ -160,6 +173,7 @@ void SplatModel::choose_keys(const figures::Figure& figure) {
 void SplatModel::look_around(const figures::Figure& figure) {
     const std::size_t looks = key_poses_.size() * direction_nodes;
     visible_.assign(looks * chunks_, 0);
+    lights_.assign(looks * light_values, 0);
     silhouettes_.resize(looks);
     summed_.resize(looks);
     const float area_each = area_ / static_cast<float>(points_);
@@ -176,15 +190,65 @@ void SplatModel::look_around(const figures::Figure& figure) {
                 std::copy_n(&visible_[(look - 1) * chunks_], chunks_, &visible_[look * chunks_]);
                 silhouettes_[look] = silhouettes_[look - 1];
                 summed_[look] = summed_[look - 1];
+                std::copy_n(&lights_[(look - 1) * light_values], light_values, &lights_[look * light_values]);
                 continue;
             }
             const SelfOcclusion::Seen seen =
                 body.look_from(direction_of(node), {&visible_[look * chunks_], static_cast<std::size_t>(chunks_)});
             silhouettes_[look] = seen.silhouette;
             summed_[look] = area_each * seen.facing;
+            find_lights(look, direction_of(node), key_poses_[key], own);
         }
     });
     find_bends();
+}
+
+void SplatModel::find_lights(std::size_t look, glm::vec3 direction, std::uint32_t pose, std::span<const float> own) {
+    std::array<glm::vec3, sun_azimuths*(1 + model::slot_count)> sums{};
+    std::array<glm::vec3, sun_azimuths> suns;
+    for (int azimuth = 0; azimuth < sun_azimuths; ++azimuth) suns[azimuth] = sun_at(azimuth, light_.to_sun);
+    float weights = 0;
+    for (int i = 0; i < std::min(points_, lit_points); ++i) {
+        if ((visible_[look * chunks_ + i / chunk_points] >> (i % chunk_points) & 1) == 0) continue;
+        const std::size_t at = std::size_t{3} * chunk_points * (i / chunk_points) + i % chunk_points;
+        const auto three = [&](const auto* from, float unit) {
+            return glm::vec3(from[at], from[at + chunk_points], from[at + 2 * chunk_points]) / unit;
+        };
+        const glm::vec3 piece = three(facets(pose), facet_unit);
+        float facing = glm::dot(piece, direction);
+        if (double_sided_) facing = std::abs(facing);
+        if (facing <= 0.0f) continue;
+        const float weight = own[i] * facing;
+        const glm::vec3 normal = three(normals(pose), 127.0f), color = weight * three(colors(), 32767.0f);
+        const glm::vec3 around = glm::mix(light_.from_below, light_.from_above, 0.5f + 0.5f * normal.y);
+        const int slot = (slots_[i] & 0xff) / 2;
+        for (int azimuth = 0; azimuth < sun_azimuths; ++azimuth)
+            sums[azimuth * (1 + model::slot_count) + slot] +=
+                color * (around + light_.sun * std::max(0.0f, glm::dot(normal, suns[azimuth])));
+        weights += weight;
+    }
+    if (!(weights > 0.0f)) return;
+    for (int i = 0; i < light_values; ++i)
+        lights_[look * light_values + i] =
+            static_cast<std::uint16_t>(std::min(light_unit * sums[i / 3][i % 3] / weights, 65535.0f));
+}
+
+SplatModel::SlotLights SplatModel::lights(std::uint32_t pose, const Between& between, glm::vec3 to_sun) const {
+    float turn = std::atan2(to_sun.x, to_sun.z) / 6.2831853f * sun_azimuths;
+    if (turn < 0.0f) turn += sun_azimuths;
+    const int below = std::min(static_cast<int>(turn), sun_azimuths - 1), above = (below + 1) % sun_azimuths;
+    const float share = turn - static_cast<float>(below);
+    SlotLights out{};
+    for (int i = 0; i < 4; ++i) {
+        const std::uint16_t* look =
+            &lights_[(std::size_t{key_of_[pose]} * direction_nodes + between.node[i]) * light_values];
+        constexpr int each = light_values / sun_azimuths;
+        for (int value = 0; value < each; ++value)
+            out[value / 3][value % 3] += between.share[i] / light_unit *
+                                         std::lerp(static_cast<float>(look[below * each + value]),
+                                                   static_cast<float>(look[above * each + value]), share);
+    }
+    return out;
 }
 
 void SplatModel::find_bends() {

@@ -11,6 +11,7 @@
 #include "figures/figure.h"
 #include "render/native/array.h"
 #include "render/native/directions.h"
+#include "scene/light.h"
 
 namespace render::native {
 
@@ -24,7 +25,7 @@ class SplatModel {
 public:
     // Takes about a second of processor time for a person of a
     // thousand poses, on all threads.
-    explicit SplatModel(const figures::Figure& figure);
+    SplatModel(const figures::Figure& figure, const scene::Light& light);
 
     int points() const { return points_; }
     int chunks() const { return chunks_; }
@@ -73,6 +74,12 @@ public:
     float summed(std::uint32_t pose, int node) const {
         return summed_[std::size_t{key_of_[pose]} * direction_nodes + node];
     }
+    // What is seen from there of somebody on whom the sun shines along `to_sun`, in the model's axes: the mean linear
+    // light of each channel that surfaces of a slot send, where the slot's own colour is white. Summed over slots, times
+    // their colours, it is the mean light of the silhouette.
+    using SlotLights = std::array<glm::vec3, 1 + model::slot_count>;
+    SlotLights lights(std::uint32_t pose, const Between& between, glm::vec3 to_sun) const;
+
     float area() const { return area_; }  // [model units^2] that the points stand for together
 
 private:
@@ -81,6 +88,7 @@ private:
     void pack_shares(const figures::Figure& figure);
     void choose_keys(const figures::Figure& figure);
     void look_around(const figures::Figure& figure);
+    void find_lights(std::size_t look, glm::vec3 direction, std::uint32_t pose, std::span<const float> own);
     void find_bends();
 
     int points_ = 0, chunks_ = 0;
@@ -98,6 +106,8 @@ private:
     std::vector<float> silhouettes_, summed_;  // [key][node]
     // Of the silhouettes, half the second differences from node to node: around, and from ring to ring.
     std::vector<float> bends_around_, bends_up_;
+    scene::Light light_;
+    std::vector<std::uint16_t> lights_;  // [key][node][azimuth of the sun][slot][channel], light_unit = 1
 };
 
 }  // namespace render::native
