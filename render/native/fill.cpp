@@ -41,7 +41,7 @@ constexpr Offsets offsets = [] {
     return made;
 }();
 
-// A colour that is linear in edges 1 and 2, and a half for `rounded`. What is last means nothing.
+// What is linear in edges 1 and 2. What is last means nothing.
 struct alignas(16) PlainShading {
     float at[4], second[4], third[4];
 };
@@ -59,10 +59,12 @@ VFloat between(float at, float to_second, float to_third, VFloat second, VFloat 
                    hn::Mul(hn::Set(f, to_third), third));
 }
 
-// Of a colour in [0, full] and a half.
-VWords rounded(VFloat color_and_half) {
-    const auto most = hn::Set(Floats(), full);
-    return hn::BitCast(Words(), hn::ConvertTo(Ints(), hn::Min(color_and_half, most)));
+// In the low half; what the high one has means nothing. Adding what has no bits for fractions rounds, to even.
+VWords rounded(VFloat color) {
+    const Floats f;
+    constexpr float no_fractions = 1 << 23;
+    const auto bounded = hn::Min(hn::Max(color, hn::Zero(f)), hn::Set(f, full));
+    return hn::BitCast(Words(), hn::Add(bounded, hn::Set(f, no_fractions)));
 }
 
 // Whole vectors, not masked stores: what is drawn next is often in the same block, and loads can't be served by a
@@ -75,8 +77,9 @@ void blend(V value, hn::Mask<D> mask, D d, T* to) {
 void store(VFloat red, VFloat green, VFloat blue, FloatMask mask, const Block& block, int lane) {
     const Words w;
     const auto wide_mask = hn::RebindMask(w, mask);
-    blend(hn::Or(rounded(red), hn::ShiftLeft<16>(rounded(green))), wide_mask, w, block.red_green + lane);
-    blend(rounded(blue), wide_mask, w, block.blue + lane);
+    const auto low = hn::Set(w, 0xffffu);
+    blend(hn::Or(hn::And(rounded(red), low), hn::ShiftLeft<16>(rounded(green))), wide_mask, w, block.red_green + lane);
+    blend(hn::And(rounded(blue), low), wide_mask, w, block.blue + lane);
 }
 
 // Keeps of `inside` what is nearer than what is there, and its depth. False: nothing is.
@@ -176,8 +179,7 @@ void shade(const RichShading& s, VFloat second, VFloat third, FloatMask mask, co
         shown = {hn::Mul(shown.red, texture.red), hn::Mul(shown.green, texture.green),
                  hn::Mul(shown.blue, texture.blue)};
     }
-    const auto half = hn::Set(f, 0.5f);
-    store(hn::Add(shown.red, half), hn::Add(shown.green, half), hn::Add(shown.blue, half), mask, block, lane);
+    store(shown.red, shown.green, shown.blue, mask, block, lane);
 }
 
 Corner difference(const Corner& a, const Corner& b) {
@@ -425,15 +427,14 @@ struct Dress {
 using FourFloats = hn::Vec<Four>;
 
 // Of numbers at the corners.
-PlainShading by_edges(FourFloats at, FourFloats at_second, FourFloats at_third, float added, const EdgeGroup& edges,
-                      int t) {
+PlainShading by_edges(FourFloats at, FourFloats at_second, FourFloats at_third, const EdgeGroup& edges, int t) {
     const Four f;
     PlainShading shading;
     const auto second = hn::Sub(at_second, at), third = hn::Sub(at_third, at);
     const auto rest =
         hn::Add(hn::Mul(second, hn::Set(f, edges.rest[0][t])), hn::Mul(third, hn::Set(f, edges.rest[1][t])));
     const auto scale = hn::Set(f, edges.scale[t]);
-    hn::Store(hn::Add(hn::Add(at, rest), hn::Set(f, added)), f, shading.at);
+    hn::Store(hn::Add(at, rest), f, shading.at);
     hn::Store(hn::Mul(second, scale), f, shading.second);
     hn::Store(hn::Mul(third, scale), f, shading.third);
     return shading;
@@ -466,14 +467,14 @@ void find_flat_shading(const Dress& dress, const FacingCorners& corners, const E
         const auto limit = hn::Mul(darkest, hn::Set(f, step * step * full));
         const auto colors = hn::FirstN(f, 3);
         if (!hn::AllFalse(f, hn::And(colors, hn::Gt(hn::Mul(bend, bend), limit)))) {
-            shading.plain = by_edges(light(0), light(1), light(2), 0, edges, t);
-            shading.albedo = by_edges(albedo(0), albedo(1), albedo(2), 0, edges, t);
+            shading.plain = by_edges(light(0), light(1), light(2), edges, t);
+            shading.albedo = by_edges(albedo(0), albedo(1), albedo(2), edges, t);
             shading.kind = Shading::Kind::product;
             return;
         }
     }
     const auto color = [&](int k) { return hn::Mul(light(k), albedo(k)); };
-    shading.plain = by_edges(color(0), color(1), color(2), 0.5f, edges, t);
+    shading.plain = by_edges(color(0), color(1), color(2), edges, t);
     shading.kind = Shading::Kind::plain;
 }
 
@@ -512,12 +513,11 @@ void shade(const Shading& shading, const EdgeGroup& edges, int t, VFloat edge1, 
     if (shading.kind == Shading::Kind::plain) {
         shade(shading.plain, edge1, edge2, mask, block, lane);
     } else if (shading.kind == Shading::Kind::product) {
-        const auto half = hn::Set(f, 0.5f);
         const auto value = [&](const PlainShading& s, int i) {
             return between(s.at[i], s.second[i], s.third[i], edge1, edge2);
         };
         const auto color = [&](int i) {
-            return hn::Add(hn::Mul(value(shading.plain, i), value(shading.albedo, i)), half);
+            return hn::Mul(value(shading.plain, i), value(shading.albedo, i));
         };
         store(color(0), color(1), color(2), mask, block, lane);
     } else {
