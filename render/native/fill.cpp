@@ -384,10 +384,10 @@ FacingCorners corners_of(const PersonMesh& mesh, std::uint32_t number) {
             &face};
 }
 
-// Of those of set_up_edges() that are alive. Returns which of them are so flat that their perspective doesn't show: in a
-// colour as stored, a square root, it is less than one of 255 steps.
-std::uint32_t set_up_depths(const PersonMesh& mesh, const FacingTriangle* facing, std::uint32_t alive, const LitVertex* vertices,
-                   EdgeGroup& out) {
+// Of those of set_up_edges() that are alive. Returns which of them are so flat that their perspective doesn't show: in
+// a colour as stored, a square root, it is less than one of 255 steps.
+std::uint32_t set_up_depths(const PersonMesh& mesh, const FacingTriangle* facing, std::uint32_t alive,
+                            const LitVertex* vertices, EdgeGroup& out) {
     const Floats f;
     constexpr float flat_enough = 0.98f;  // of depths, nearest by farthest
     std::uint32_t flat = 0;
@@ -501,8 +501,9 @@ HWY_NOINLINE void find_shading(const Dress& dress, std::uint32_t number, bool is
         return;
     }
     const auto slope = [&](int steps) { return static_cast<float>(steps) * edges.scale[t]; };
-    shading.rich = rich_shading(
-        dress, corners, {slope(edges.along(1, t)), slope(edges.down(1, t)), slope(edges.along(2, t)), slope(edges.down(2, t))});
+    const Slopes slopes{slope(edges.along(1, t)), slope(edges.down(1, t)), slope(edges.along(2, t)),
+                        slope(edges.down(2, t))};
+    shading.rich = rich_shading(dress, corners, slopes);
     shading.kind = Shading::Kind::rich;
 }
 
@@ -544,8 +545,10 @@ std::uint32_t touched_blocks(const EdgeGroup& edges, int t, const std::int32_t (
     std::uint32_t touched = 0;
     for (int lane = 0; lane < group; lane += lanes) {
         auto outside = hn::Zero(i);
-        for (int k = 0; k < 3; ++k)
-            outside = hn::Or(outside, edge_at(edges.slope[k][t], start[k] + edges.most[k][t], square_offsets.blocks, lane));
+        for (int k = 0; k < 3; ++k) {
+            const std::int32_t most = start[k] + edges.most[k][t];
+            outside = hn::Or(outside, edge_at(edges.slope[k][t], most, square_offsets.blocks, lane));
+        }
         touched |= bits_of(hn::Gt(outside, hn::Set(i, -1))) << lane;
     }
     return touched;
