@@ -5,10 +5,6 @@
 
 namespace render::native {
 
-namespace {
-
-// Angles by the diamond instead of the circle: they rise along it as angles do, and one division gives them.
-// Of (x, z): in [0, 4), 0 along z and 1 along x.
 float diamond_of(float x, float z) {
     const float size = std::abs(x) + std::abs(z);
     if (!(size > 0.0f)) return 0.0f;
@@ -22,8 +18,6 @@ glm::vec2 on_diamond(float angle) {
     if (angle < 3.0f) return {2.0f - angle, angle < 2.0f ? 1.0f - angle : angle - 3.0f};
     return {angle - 4.0f, angle - 3.0f};
 }
-
-}  // namespace
 
 glm::vec3 direction_of(int node) {
     const float height = 2.0f * static_cast<float>(node / ring_nodes) / (rings - 1) - 1.0f;

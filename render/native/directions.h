@@ -11,6 +11,12 @@ namespace render::native {
 inline constexpr int rings = 9, ring_nodes = 16;
 inline constexpr int direction_nodes = rings * ring_nodes;
 
+// Angles by the diamond instead of the circle: they rise along it as angles do, and one division gives them. Of (x, z):
+// in [0, 4], 0 and 4 along z and 1 along x; 0 where there is no direction.
+float diamond_of(float x, float z);
+// (x, z) of any length but 0.
+glm::vec2 on_diamond(float angle);
+
 // Unit, from the body towards the node.
 glm::vec3 direction_of(int node);
 

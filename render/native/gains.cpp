@@ -47,6 +47,10 @@ Between among_octaves(float value, float first, int count) {
     return {below, static_cast<float>(clamped - (below << mantissa_bits)) / (1 << mantissa_bits)};
 }
 
+float between(float a, float b, float share) {
+    return a + share * (b - a);
+}
+
 }  // namespace
 
 void Gains::measure(const std::function<Trial(float, float, int)>& draw, float most_points) {
@@ -72,9 +76,9 @@ float Gains::at(float cells, float points) const {
     const Between size = among_octaves(cells, first_size, sizes);
     const Between density = among_octaves(points / cells, first_density, densities);
     const auto along = [&](int row) {
-        return std::lerp(gains_[row][density.below], gains_[row][density.below + 1], density.share);
+        return between(gains_[row][density.below], gains_[row][density.below + 1], density.share);
     };
-    return std::lerp(along(size.below), along(size.below + 1), size.share);
+    return between(along(size.below), along(size.below + 1), size.share);
 }
 
 }  // namespace render::native

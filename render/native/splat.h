@@ -20,7 +20,7 @@ inline constexpr std::int16_t cell_full = 8192;     // a cell that is covered on
 inline constexpr std::uint16_t pixel_full = 16384;  // a pixel that is covered once; up to twice fits
 
 // Sums over so few points depend on which they are: they are made to cover what the silhouette does, one by one.
-inline constexpr int longest_summed_prefix = 128;
+inline constexpr int longest_summed_prefix = 512;
 
 // One person, as their points are drawn. 16-bit fixed point: 32767 = 1 where nothing else is said.
 struct SplatPerson {

@@ -40,9 +40,9 @@ constexpr float light_unit = 16384.0f;
 constexpr int lit_points = 512;  // as many tell what light a body sends
 
 glm::vec3 sun_at(int azimuth, glm::vec3 to_sun) {
-    const float angle = 6.2831853f * static_cast<float>(azimuth) / sun_azimuths;
     const float out = std::sqrt(std::max(0.0f, 1.0f - to_sun.y * to_sun.y));
-    return {out * std::sin(angle), to_sun.y, out * std::cos(angle)};
+    const glm::vec2 around = out * glm::normalize(on_diamond(4.0f * static_cast<float>(azimuth) / sun_azimuths));
+    return {around.x, to_sun.y, around.y};
 }
 
 // So many triangles and points are looked at, over all directions and key poses.
@@ -234,20 +234,21 @@ void SplatModel::find_lights(std::size_t look, glm::vec3 direction, std::uint32_
 }
 
 SplatModel::SlotLights SplatModel::lights(std::uint32_t pose, const Between& between, glm::vec3 to_sun) const {
-    float turn = std::atan2(to_sun.x, to_sun.z) / 6.2831853f * sun_azimuths;
-    if (turn < 0.0f) turn += sun_azimuths;
+    const float turn = diamond_of(to_sun.x, to_sun.z) * (sun_azimuths / 4.0f);
     const int below = std::min(static_cast<int>(turn), sun_azimuths - 1), above = (below + 1) % sun_azimuths;
     const float share = turn - static_cast<float>(below);
-    SlotLights out{};
+    constexpr int each = light_values / sun_azimuths;
+    std::array<float, each> sums{};
     for (int i = 0; i < 4; ++i) {
         const std::uint16_t* look =
             &lights_[(std::size_t{key_of_[pose]} * direction_nodes + between.node[i]) * light_values];
-        constexpr int each = light_values / sun_azimuths;
+        const std::uint16_t *from = look + below * each, *to = look + above * each;
+        const float far = between.share[i] * share / light_unit, near = between.share[i] / light_unit - far;
         for (int value = 0; value < each; ++value)
-            out[value / 3][value % 3] += between.share[i] / light_unit *
-                                         std::lerp(static_cast<float>(look[below * each + value]),
-                                                   static_cast<float>(look[above * each + value]), share);
+            sums[value] += near * static_cast<float>(from[value]) + far * static_cast<float>(to[value]);
     }
+    SlotLights out;
+    for (int value = 0; value < each; ++value) out[value / 3][value % 3] = sums[value];
     return out;
 }
 
