@@ -7,9 +7,11 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <span>
 #include <utility>
 
 #include "render/view.h"
@@ -21,6 +23,11 @@ namespace render::native {
 
 // Who lays something on a pixel of which no more is open than this can't be seen.
 inline constexpr std::int16_t closed = pixel_full / 4096;
+
+// Where a pixel is among cells: in [0, last - 1], and the share of the next, 32767 = 1.
+struct Along {
+    std::int16_t cell, share;
+};
 
 // A row of a patch of cells as large as pixels, and what it is laid into, from the same pixel on.
 struct CoverRow {
@@ -107,17 +114,38 @@ Floats part(hn::Vec<decltype(shorts)> fixed) {
     return hn::ConvertTo(floats, hn::PromoteTo(ints, fixed));
 }
 
-// Of four cells the mean by how far a pixel is from them: `across` and `down`, 32767 = 1.
-void mix(const std::int16_t* cell, int stride, std::int16_t across, std::int16_t down, std::int16_t* to) {
-    const hn::FixedTag<std::int16_t, 8> lanes;
-    const auto between = [&](auto a, auto b, std::int16_t share)
-                             HWY_ATTR { return hn::Add(a, hn::MulFixedPoint15(hn::Sub(b, a), hn::Set(lanes, share))); };
-    const auto row = [&](const std::int16_t* at)
-                         HWY_ATTR { return between(hn::Load(lanes, at), hn::Load(lanes, at + 8), across); };
-    hn::Store(between(row(cell), row(cell + 8 * stride), down), lanes, to);
+// Whether anything of a group of pixels can still be seen through.
+bool is_open(const Cover* group) {
+    constexpr int step = static_cast<int>(hn::MaxLanes(cells)) / 4;
+    alignas(64) static constexpr std::int16_t light[16] = {-1, -1, -1, 0, -1, -1, -1, 0, -1, -1, -1, 0, -1, -1, -1, 0};
+    // Light counts as full, and what is more than full as much more.
+    const auto not_share =
+        hn::ShiftRight<1>(hn::BitCast(hn::Repartition<std::uint16_t, Cells>(), hn::Load(cells, light)));
+    for (int i = 0; i < group_cells; i += step) {
+        const auto there = hn::LoadU(cells, reinterpret_cast<const std::int16_t*>(group + i));
+        const auto share = hn::Or(there, hn::BitCast(cells, not_share));
+        if (!hn::AllFalse(cells, hn::Lt(share, all(pixel_full - closed)))) return true;
+    }
+    return false;
+}
+
+using Cell = hn::FixedTag<std::int16_t, 8>;
+
+hn::Vec<Cell> between(const std::int16_t* a, const std::int16_t* b, std::int16_t share) {
+    const Cell cell;
+    const auto from = hn::Load(cell, a);
+    return hn::Add(from, hn::MulFixedPoint15(hn::Sub(hn::Load(cell, b), from), hn::Set(cell, share)));
 }
 
 }  // namespace
+
+// Which groups of pixels can still be seen through, a bit each. The last one's pixels beyond `count` count too.
+std::uint64_t OpenGroups(const Cover* cover, int count) {
+    std::uint64_t open = 0;
+    for (int x = 0; x < count; x += group_cells)
+        open |= std::uint64_t{is_open(cover + x)} << (x / group_cells);
+    return open;
+}
 
 // Makes cells that are covered more than once cover themselves once. `count`: of whole groups.
 void ThinCells(std::int16_t* from, int count) {
@@ -130,29 +158,34 @@ void ThinCells(std::int16_t* from, int count) {
     }
 }
 
-// A row of pixels out of a patch of larger cells: `x0` is the first of `count`, `y` the row. Returns which groups of
-// pixels aren't all 0.
-std::uint64_t StretchRow(const Patch& patch, float cell, int x0, int count, int y, std::int16_t* pixels) {
-    struct At {
-        int cell;
-        std::int16_t share;  // of the next one
+// A row of pixels out of a patch of larger cells, first down and then across; `line` is all 0 before and after. Returns
+// which groups of pixels may not be all 0, and are open in `cover`; the others aren't written.
+std::uint64_t StretchRow(const Patch& patch, Along row, std::span<const Along> columns, const Cover* cover,
+                         std::int16_t* line, std::int16_t* pixels) {
+    const Cell cell;
+    const std::uint64_t used = patch.used[row.cell] | patch.used[row.cell + 1];
+    const std::int16_t* above = patch.cells + std::ptrdiff_t{8} * patch.stride * row.cell;
+    const std::int16_t* below = above + std::ptrdiff_t{8} * patch.stride;
+    const auto for_each_used = [&](auto visit) HWY_ATTR {
+        for (std::uint64_t left = used; left != 0; left &= left - 1)
+            for (int i = 0; i < 8 * group_cells; i += 8) visit(8 * group_cells * std::countr_zero(left) + i);
     };
-    const auto at = [&](int pixel, int first, int size) {
-        const float place = (static_cast<float>(pixel) + 0.5f) / cell - 0.5f - static_cast<float>(first);
-        const float clamped = std::clamp(place, 0.0f, static_cast<float>(size - 1) - 0.001f);
-        const int whole = static_cast<int>(clamped);
-        return At{whole, static_cast<std::int16_t>((clamped - static_cast<float>(whole)) * 32767.0f)};
-    };
-    const At row = at(y, patch.y0, patch.height);
-    if ((patch.used[row.cell] | patch.used[row.cell + 1]) == 0) return 0;
-    for (int i = 0; i < count; ++i) {
-        const At column = at(x0 + i, patch.x0, patch.width);
-        mix(patch.cells + 8 * (row.cell * patch.stride + column.cell), patch.stride, column.share, row.share,
-            pixels + 8 * i);
+    for_each_used([&](int at) HWY_ATTR { hn::Store(between(above + at, below + at, row.share), cell, line + at); });
+    const int count = static_cast<int>(columns.size());
+    std::uint64_t filled = 0;
+    for (int first = 0; first < count; first += group_cells) {
+        const int end = std::min(first + group_cells, count);
+        const int low = columns[first].cell / group_cells, high = (columns[end - 1].cell + 1) / group_cells;
+        if ((used >> low & ((std::uint64_t{2} << (high - low)) - 1)) == 0 || !is_open(cover + first)) continue;
+        filled |= std::uint64_t{1} << (first / group_cells);
+        for (int i = first; i < end; ++i) {
+            const std::int16_t* from = line + 8 * columns[i].cell;
+            hn::Store(between(from, from + 8, columns[i].share), cell, pixels + 8 * i);
+        }
+        for (int i = end; i < first + group_cells; ++i) hn::Store(hn::Zero(cell), cell, pixels + 8 * i);
     }
-    const int groups = (count + group_cells - 1) / group_cells;
-    for (int i = 8 * count; i < 8 * groups * group_cells; ++i) pixels[i] = 0;
-    return groups == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << groups) - 1;
+    for_each_used([&](int at) HWY_ATTR { hn::Store(hn::Zero(cell), cell, line + at); });
+    return filled;
 }
 
 // Lays the used cells, and leaves them all 0.
@@ -237,13 +270,15 @@ HWY_AFTER_NAMESPACE();
 namespace render::native {
 
 HWY_EXPORT(LayRow);
+HWY_EXPORT(OpenGroups);
 HWY_EXPORT(ThinCells);
 HWY_EXPORT(StretchRow);
 HWY_EXPORT(ResolveRow);
 
 CoverTile::CoverTile()
-    : cover_(std::size_t{stride} * (tile_side + 2)),
+    : cover_(std::size_t{stride} * (tile_side + 2 * margin_rows)),
       flocks_(cover_.size()),
+      line_(std::size_t{8} * (largest_patch_side + group_cells)),
       stretched_(std::size_t{8} * stride),
       limits_(stride) {}
 
@@ -254,14 +289,25 @@ void CoverTile::begin(const Tile& tile, const BackdropPicture& behind) {
     std::fill(flocks_.begin(), flocks_.end(), Flock{});
 }
 
-bool CoverTile::is_full(const Rect& pixels) const {
-    const int x0 = std::max(pixels.x0, tile_.x0), x1 = std::min(pixels.x1, tile_.x1);
-    for (int y = std::max(pixels.y0, tile_.y0); y < std::min(pixels.y1, tile_.y1); ++y) {
-        const Cover* row = &cover_[index_of(0, y)];
-        for (int x = x0; x < x1; ++x)
-            if (row[x].share < pixel_full - closed) return false;
-    }
-    return true;
+Rect CoverTile::open_part(const Rect& pixels) const {
+    Rect part{std::max(pixels.x0, tile_.x0), std::max(pixels.y0, tile_.y0), std::min(pixels.x1, tile_.x1),
+              std::min(pixels.y1, tile_.y1)};
+    if (part.empty()) return {};
+    const int width = part.x1 - part.x0;
+    const auto open_groups = [&](int y) {
+        return HWY_DYNAMIC_DISPATCH(OpenGroups)(&cover_[index_of(part.x0, y)], width);
+    };
+    std::uint64_t groups = 0;
+    while (part.y0 < part.y1 && (groups = open_groups(part.y0)) == 0) ++part.y0;
+    while (part.y0 < part.y1 && open_groups(part.y1 - 1) == 0) --part.y1;
+    if (part.empty()) return {};
+    // Every group is known to be open or not once one of its rows is.
+    const int last = (width - 1) / group_cells;
+    for (int y = part.y0 + 1; y < part.y1 && ((groups & 1) == 0 || (groups >> last & 1) == 0); ++y)
+        groups |= open_groups(y);
+    part.x1 = std::min(part.x1, part.x0 + group_cells * static_cast<int>(std::bit_width(groups)));
+    part.x0 += group_cells * std::countr_zero(groups);
+    return part;
 }
 
 void CoverTile::lay(const NearLayer& near) {
@@ -327,11 +373,20 @@ void CoverTile::lay_stretched(const SplatPerson& person, const Patch& patch, con
                 visit(patch.cells + std::ptrdiff_t{8} * (patch.stride * y + group_cells * std::countr_zero(left)));
     };
     for_each_group([](std::int16_t* cell) { HWY_DYNAMIC_DISPATCH(ThinCells)(cell, group_cells); });
+    const auto along = [&](int pixel, int first, int size) {
+        const float place = (static_cast<float>(pixel) + 0.5f) / person.cell - 0.5f - static_cast<float>(first);
+        const float clamped = std::clamp(place, 0.0f, static_cast<float>(size - 1) - 0.001f);
+        const auto whole = static_cast<std::int16_t>(clamped);
+        return Along{whole, static_cast<std::int16_t>((clamped - static_cast<float>(whole)) * 32767.0f)};
+    };
     const Rect pixels = person.bounds();
     const int x0 = std::max(pixels.x0, tile_.x0), x1 = std::min(pixels.x1, tile_.x1);
+    std::array<Along, tile_side> columns;
+    for (int x = x0; x < x1; ++x) columns[x - x0] = along(x, patch.x0, patch.width);
     for (int y = std::max(pixels.y0, tile_.y0); x0 < x1 && y < std::min(pixels.y1, tile_.y1); ++y) {
-        const std::uint64_t used =
-            HWY_DYNAMIC_DISPATCH(StretchRow)(patch, person.cell, x0, x1 - x0, y, stretched_.data());
+        const std::uint64_t used = HWY_DYNAMIC_DISPATCH(StretchRow)(
+            patch, along(y, patch.y0, patch.height), std::span(columns).first(static_cast<std::size_t>(x1 - x0)),
+            &cover_[index_of(x0, y)], line_.data(), stretched_.data());
         if (used != 0) lay_row(person, stretched_.data(), used, {x0, y, x1, y + 1}, near, layers);
     }
     for_each_group([](std::int16_t* cell) { std::fill_n(cell, 8 * group_cells, std::int16_t{0}); });
@@ -339,9 +394,8 @@ void CoverTile::lay_stretched(const SplatPerson& person, const Patch& patch, con
 }
 
 void CoverTile::resolve(Plane<std::uint32_t>& out) {
-    for (int y = tile_.y0; y < tile_.y1; ++y)
-        HWY_DYNAMIC_DISPATCH(ResolveRow)
-        (&cover_[index_of(tile_.x0, y)], behind_->color.row(y) + tile_.x0, out.row(y) + tile_.x0, tile_.x1 - tile_.x0);
+    for (int y = tile_.y0; y < tile_.y1; ++y) HWY_DYNAMIC_DISPATCH(ResolveRow)
+    (&cover_[index_of(tile_.x0, y)], behind_->color.row(y) + tile_.x0, out.row(y) + tile_.x0, tile_.x1 - tile_.x0);
 }
 
 }  // namespace render::native

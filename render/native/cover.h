@@ -38,8 +38,8 @@ public:
     void begin(const Tile& tile, const BackdropPicture& behind);
     const Tile& tile() const { return tile_; }
 
-    // Whether nothing that is laid within these pixels would be seen any more.
-    bool is_full(const Rect& pixels) const;
+    // The part of the tile's pixels within these that holds all on which something can still be seen; empty: none.
+    Rect open_part(const Rect& pixels) const;
 
     // Lays a patch behind what is there, where it is nearer than the backdrop, and leaves it all 0. `near`: the tile's,
     // needed if it isn't all that is laid.
@@ -51,10 +51,11 @@ public:
     void resolve(Plane<std::uint32_t>& out);
 
 private:
-    // A pixel around the tile, and a whole group of cells to the right, take what is laid beyond it.
+    // What is laid beyond the tile: rows above and below, groups of cells left and right.
+    static constexpr int margin_rows = 3;
     static constexpr int stride = tile_side + 3 * group_cells;
     std::size_t index_of(int x, int y) const {
-        return static_cast<std::size_t>(y - tile_.y0 + 1) * stride + (x - tile_.x0 + group_cells);
+        return static_cast<std::size_t>(y - tile_.y0 + margin_rows) * stride + (x - tile_.x0 + group_cells);
     }
     void lay_row(const SplatPerson& person, std::int16_t* cells, std::uint64_t used, Tile part, const NearLayer* near,
                  Layers layers);
@@ -65,6 +66,7 @@ private:
     const BackdropPicture* behind_ = nullptr;
     std::vector<Cover> cover_;
     std::vector<Flock> flocks_;
+    Array<std::int16_t> line_;       // a row of cells, all 0 between two rows
     Array<std::int16_t> stretched_;  // a row of pixels of a stretched patch
     std::vector<float> limits_;      // a row of depths
 };

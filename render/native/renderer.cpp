@@ -159,17 +159,18 @@ float Renderer::draw_near(std::size_t tile, Easel& easel) const {
 }
 
 void Renderer::draw_point_person(const SplatPerson& person, Easel& easel, Layers layers) const {
-    const Tile& tile = easel.cover.tile();
+    const Rect open = easel.cover.open_part(person.bounds());
+    if (open.empty()) return;
+    // A pixel takes from the cells around its middle, and those from points up to a cell before them.
     const auto cell_at = [&](int pixel) {
         return static_cast<int>(std::floor(static_cast<float>(pixel) / person.cell));
     };
     Patch patch;
-    patch.x0 = std::max<int>(person.x0, cell_at(tile.x0) - 1);
-    patch.y0 = std::max<int>(person.y0, cell_at(tile.y0) - 1);
-    patch.width = std::min<int>(person.x1, cell_at(tile.x1 - 1) + 2) - patch.x0;
-    patch.height = std::min<int>(person.y1, cell_at(tile.y1 - 1) + 2) - patch.y0;
+    patch.x0 = std::max<int>(person.x0, cell_at(open.x0) - 2);
+    patch.y0 = std::max<int>(person.y0, cell_at(open.y0) - 2);
+    patch.width = std::min<int>(person.x1, cell_at(open.x1 - 1) + 3) - patch.x0;
+    patch.height = std::min<int>(person.y1, cell_at(open.y1 - 1) + 3) - patch.y0;
     if (patch.width < 2 || patch.height < 2) return;
-    if (easel.cover.is_full(person.bounds())) return;
     patch.stride = (patch.width + group_cells - 1) / group_cells * group_cells;
     patch.cells = easel.cells.data();
     patch.used = easel.used.data();

@@ -74,7 +74,7 @@ struct Patch {
     int x0 = 0, y0 = 0, width = 0, height = 0, stride = 0;
 };
 inline constexpr int group_cells = 4;
-inline constexpr int largest_patch_side = 132;  // [cells]; offsets of cells fit 16 bits
+inline constexpr int largest_patch_side = 136;  // [cells]; offsets of cells fit 16 bits
 
 // Adds a person up in a patch that is all 0.
 void splat(const SplatPerson& person, const SplatLight& light, const Patch& patch);
