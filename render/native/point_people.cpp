@@ -30,6 +30,166 @@ struct Turn {
     glm::vec3 to_model(glm::vec3 v) const { return {cosine * v.x - sine * v.z, v.y, cosine * v.z + sine * v.x}; }
 };
 
+// One person, as the eye and the sun see them.
+struct Sight {
+    const View& view;
+    const Person& person;
+    const SplatModel& model;
+    Turn turn;
+    float cell;          // [px]
+    glm::vec3 half;      // [m] where 32768 of each axis goes, from the middle of the box
+    glm::vec3 middle;    // [m] of the box, camera-relative
+    float depth, reach;  // [m]
+    float cells_per_metre;
+    float samples;  // points, the last in part
+    glm::vec3 to_eye, to_sun;
+    Between between;
+
+    Sight(const View& from, const Person& whom, const SplatModel& points, const motion::Bounds& box, glm::vec3 sun,
+          float cell_px)
+        : view(from),
+          person(whom),
+          model(points),
+          turn{static_cast<float>(whom.instance.sin_yaw) / unit, static_cast<float>(whom.instance.cos_yaw) / unit},
+          cell(cell_px) {
+        constexpr float half_steps = 32768.0f / 65535.0f;
+        half = whom.instance.scale * half_steps * box.size();
+        middle = whom.instance.position + turn.to_world(whom.instance.scale * (box.min + half_steps * box.size()));
+        depth = std::max(view.depth(middle), near_plane);
+        reach = glm::length(half);
+        cells_per_metre = view.pixels_per_metre(depth) / cell;
+        samples = static_cast<float>(whom.count - 1) + whom.last_share;
+        to_eye = turn.to_model(-glm::normalize(middle));
+        to_sun = turn.to_model(sun);
+        between = between_nodes(to_eye);
+    }
+
+    // [cells] From the middle of the picture.
+    glm::vec2 from_center() const {
+        return cells_per_metre * glm::vec2(glm::dot(view.right, middle), -glm::dot(view.up, middle));
+    }
+    // [cells] On the picture.
+    glm::vec2 at() const {
+        constexpr float farthest = 1e6f;  // beyond every picture
+        const glm::vec2 center = 0.5f / cell * glm::vec2(view.width, view.height);
+        return glm::clamp(from_center() + center, -farthest, farthest);
+    }
+};
+
+constexpr float steps_a_cell = 1 << cell_bits;
+
+void take_points(const Sight& sight, SplatPerson& out) {
+    const SplatModel& model = sight.model;
+    const std::uint32_t pose = sight.person.pose;
+    out.positions = model.positions(pose);
+    out.normals = model.normals(pose);
+    out.facets = model.facets(pose);
+    out.count = static_cast<int>(sight.person.count);
+    out.last_share = fixed(sight.person.last_share);
+    out.two_sided = out.count <= longest_two_sided_prefix;
+    const SplatModel::Blend shares = model.shares(sight.samples);
+    out.shares = {shares.near, shares.far};
+    out.to_far = fixed(shares.to_far);
+    const bool is_mean = out.count <= longest_mean_prefix;
+    out.colors = is_mean ? model.mean_colors(out.count) : model.colors();
+    out.slot_shares = is_mean ? model.mean_shares(out.count) : nullptr;
+    out.slots = model.slots();
+}
+
+// Perspective to the first order in the axes; the kernel does the rest with `nearness`.
+void place(const Sight& sight, SplatPerson& out) {
+    out.cell = sight.cell;
+    out.depth = sight.depth;
+    out.reach = sight.reach;
+    out.nearness = fixed(sight.reach / sight.depth);
+    constexpr float codes_per_metre = 16.0f;  // they repeat after 4 km, where nobody is a body's depth apart
+    out.depth_code = static_cast<std::int16_t>(static_cast<std::int64_t>(sight.depth * codes_per_metre));
+    // About a body's own depth: three quarters of the side of a square as large as its silhouette.
+    const float side = sight.person.instance.scale * std::sqrt(0.25f * sight.model.area());
+    out.thickness = static_cast<std::int16_t>(std::min(0.75f * side * codes_per_metre, unit));
+    const View& view = sight.view;
+    const glm::vec2 from_center = sight.from_center();
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::vec3 along(0.0f);
+        along[axis] = sight.half[axis];
+        const glm::vec3 world = sight.turn.to_world(along);
+        const float back = glm::dot(view.forward, world), shift = back / sight.depth;
+        out.axes[0][axis] =
+            fixed(sight.cells_per_metre * glm::dot(view.right, world) - from_center.x * shift, steps_a_cell);
+        out.axes[1][axis] =
+            fixed(-sight.cells_per_metre * glm::dot(view.up, world) - from_center.y * shift, steps_a_cell);
+        out.axes[2][axis] = fixed(back / sight.reach);
+    }
+    const glm::vec2 at = sight.at();
+    for (int i = 0; i < 2; ++i) out.middle[i] = static_cast<std::int32_t>(std::floor(at[i] * steps_a_cell));
+    out.to_eye = fixed(sight.to_eye);
+    out.to_sun = fixed(sight.to_sun);
+}
+
+// What the points may touch; perspective makes the nearest larger.
+void find_bounds(const Sight& sight, SplatPerson& out) {
+    const SplatModel::Extent& extent = sight.model.extent(sight.person.pose);
+    const float larger = 1.0f / std::max(1.0f - sight.reach / sight.depth, 0.25f);
+    const glm::vec2 at = sight.at();
+    std::array<std::int16_t, 4> bounds;
+    for (int i = 0; i < 2; ++i) {
+        float low = 0, high = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const float a = out.axes[i][axis] / 32768.0f * extent.min[axis];
+            const float b = out.axes[i][axis] / 32768.0f * extent.max[axis];
+            low += std::min(a, b);
+            high += std::max(a, b);
+        }
+        low = std::min(low, low * larger) / steps_a_cell + at[i];
+        high = std::max(high, high * larger) / steps_a_cell + at[i];
+        constexpr float most = 16000.0f;
+        bounds[i] = static_cast<std::int16_t>(std::clamp(std::floor(low) - 1.0f, -most, most));
+        bounds[2 + i] = static_cast<std::int16_t>(std::clamp(std::floor(high) + 3.0f, -most, most));
+    }
+    out.x0 = bounds[0], out.y0 = bounds[1], out.x1 = bounds[2], out.y1 = bounds[3];
+}
+
+// How much the points cover, together and each.
+void weigh(const Sight& sight, const Gains& gains, SplatPerson& out) {
+    const SplatModel& model = sight.model;
+    const std::uint32_t pose = sight.person.pose;
+    float interpolated = 0, summed = 0;
+    for (int i = 0; i < 4; ++i) {
+        const int node = sight.between.node[i];
+        const float share = sight.between.share[i];
+        out.visible[i] = model.visible(pose, node);
+        out.visible_share[i] = fixed(share, unit - 4.0f);  // rounded up, four still sum to at most one
+        interpolated += share * model.silhouette(pose, node);
+        summed += share * model.summed(pose, node);
+    }
+    // Off the screen's middle a silhouette's image is larger, as it is cast aslant.
+    const float cells_per_unit = sight.cells_per_metre * sight.person.instance.scale;
+    const float cells = cells_per_unit * cells_per_unit * glm::length(sight.middle) / sight.depth;
+    out.silhouette = cells * model.silhouette(pose, sight.between);
+    const float gain = gains.at(out.silhouette, sight.samples);
+    out.total = out.count <= longest_summed_prefix ? gain * out.silhouette : 0.0f;
+    const float covers = summed > 0.0f ? interpolated / summed : 1.0f;
+    out.area_each = gain * covers * model.area() * cells / sight.samples;
+}
+
+void color(const Sight& sight, SplatPerson& out) {
+    for (int channel = 0; channel < 3; ++channel) {
+        out.palette[channel] = {};
+        out.palette[channel][model::no_slot] = 32767;
+        for (int slot = 1; slot <= model::slot_count; ++slot) {
+            const std::uint8_t code = sight.person.instance.palette[static_cast<model::Slot>(slot)][channel];
+            const float share = static_cast<float>(code) / 255.0f;
+            out.palette[channel][slot] = fixed(share * share);
+        }
+    }
+    out.mean_light = {};
+    if (!(out.total > 0.0f)) return;
+    const SplatModel::SlotLights lights = sight.model.lights(sight.person.pose, sight.between, sight.to_sun);
+    for (int channel = 0; channel < 3; ++channel)
+        for (int slot = 0; slot <= model::slot_count; ++slot)
+            out.mean_light[channel] += lights[slot][channel] * (out.palette[channel][slot] / unit);
+}
+
 }  // namespace
 
 PointPeople::PointPeople(std::span<const figures::Figure> figures, const scene::Light& light)
@@ -129,117 +289,14 @@ Gains::Trial PointPeople::draw_alone(std::uint32_t character, float cells, float
 }
 
 SplatPerson PointPeople::ready(const View& view, const Person& person, float cell) const {
-    const Instance& instance = person.instance;
-    const SplatModel& model = kinds_[person.character]->model;
-    const motion::Bounds& box = figures_[person.character].poses->box;
-    const Turn turn{static_cast<float>(instance.sin_yaw) / unit, static_cast<float>(instance.cos_yaw) / unit};
+    const Kind& kind = *kinds_[person.character];
+    const Sight sight(view, person, kind.model, figures_[person.character].poses->box, daylight_.to_sun, cell);
     SplatPerson out;
-    out.positions = model.positions(person.pose);
-    out.normals = model.normals(person.pose);
-    out.facets = model.facets(person.pose);
-    out.count = static_cast<int>(person.count);
-    out.last_share = fixed(person.last_share);
-
-    // Where 32768 of each axis goes, and the middle of the box.
-    constexpr float half_steps = 32768.0f / 65535.0f;
-    const glm::vec3 half = instance.scale * half_steps * box.size();
-    const glm::vec3 middle = instance.position + turn.to_world(instance.scale * (box.min + half_steps * box.size()));
-    out.depth = std::max(view.depth(middle), near_plane);
-    out.reach = glm::length(half);
-    out.nearness = fixed(out.reach / out.depth);
-    constexpr float codes_per_metre = 16.0f;  // they repeat after 4 km, where nobody is a body's depth apart
-    out.depth_code = static_cast<std::int16_t>(static_cast<std::int64_t>(out.depth * codes_per_metre));
-    // About a body's own depth: three quarters of the side of a square as large as its silhouette.
-    const float side = instance.scale * std::sqrt(0.25f * model.area());
-    out.thickness = static_cast<std::int16_t>(std::min(0.75f * side * codes_per_metre, unit));
-    const float cells_per_metre = view.pixels_per_metre(out.depth) / cell;
-    constexpr float steps = 1 << cell_bits;
-    const glm::vec2 from_center = cells_per_metre * glm::vec2(glm::dot(view.right, middle), -glm::dot(view.up, middle));
-    const glm::vec2 center = 0.5f / cell * glm::vec2(view.width, view.height);
-    for (int axis = 0; axis < 3; ++axis) {
-        glm::vec3 e(0.0f);
-        e[axis] = half[axis];
-        const glm::vec3 world = turn.to_world(e);
-        const float back = glm::dot(view.forward, world);
-        out.axes[0][axis] =
-            fixed(cells_per_metre * glm::dot(view.right, world) - from_center.x * back / out.depth, steps);
-        out.axes[1][axis] =
-            fixed(-cells_per_metre * glm::dot(view.up, world) - from_center.y * back / out.depth, steps);
-        out.axes[2][axis] = fixed(back / out.reach);
-    }
-    constexpr float farthest = 1e6f;  // [cells] beyond every picture
-    const glm::vec2 at = glm::clamp(from_center + center, -farthest, farthest);
-    out.middle = {static_cast<std::int32_t>(std::floor(at.x * steps)),
-                  static_cast<std::int32_t>(std::floor(at.y * steps))};
-    out.cell = cell;
-
-    // What its points may touch; perspective makes the nearest larger.
-    const SplatModel::Extent& extent = model.extent(person.pose);
-    const float larger = 1.0f / std::max(1.0f - out.reach / out.depth, 0.25f);
-    std::array<std::int16_t, 4> bounds;
-    for (int i = 0; i < 2; ++i) {
-        float low = 0, high = 0;
-        for (int axis = 0; axis < 3; ++axis) {
-            const float a = out.axes[i][axis] / 32768.0f * extent.min[axis];
-            const float b = out.axes[i][axis] / 32768.0f * extent.max[axis];
-            low += std::min(a, b);
-            high += std::max(a, b);
-        }
-        low = std::min(low, low * larger) / steps + at[i];
-        high = std::max(high, high * larger) / steps + at[i];
-        bounds[i] = static_cast<std::int16_t>(std::clamp(std::floor(low) - 1.0f, -16000.0f, 16000.0f));
-        bounds[2 + i] = static_cast<std::int16_t>(std::clamp(std::floor(high) + 3.0f, -16000.0f, 16000.0f));
-    }
-    out.x0 = bounds[0], out.y0 = bounds[1], out.x1 = bounds[2], out.y1 = bounds[3];
-
-    const glm::vec3 to_eye = turn.to_model(-glm::normalize(middle));
-    out.to_eye = fixed(to_eye);
-    const glm::vec3 to_sun = turn.to_model(daylight_.to_sun);
-    out.to_sun = fixed(to_sun);
-    out.two_sided = out.count <= longest_two_sided_prefix;
-
-    const float samples = static_cast<float>(person.count - 1) + person.last_share;
-    const SplatModel::Blend shares = model.shares(samples);
-    out.shares = {shares.near, shares.far};
-    out.to_far = fixed(shares.to_far);
-    const float cells_per_unit = cells_per_metre * instance.scale;
-    const Between between = between_nodes(to_eye);
-    const float silhouette = model.silhouette(person.pose, between);
-    float interpolated = 0, summed = 0;
-    for (int i = 0; i < 4; ++i) {
-        out.visible[i] = model.visible(person.pose, between.node[i]);
-        out.visible_share[i] = fixed(between.share[i], unit - 4.0f);  // rounded up, four still sum to at most one
-        interpolated += between.share[i] * model.silhouette(person.pose, between.node[i]);
-        summed += between.share[i] * model.summed(person.pose, between.node[i]);
-    }
-    // Off the screen's middle a silhouette's image is larger, as it is cast aslant.
-    const float cells = cells_per_unit * cells_per_unit * glm::length(middle) / out.depth;
-    out.silhouette = silhouette * cells;
-    const float gain = kinds_[person.character]->gains.at(out.silhouette, samples);
-    out.total = out.count <= longest_summed_prefix ? gain * out.silhouette : 0.0f;
-    const float covers = summed > 0.0f ? interpolated / summed : 1.0f;
-    out.area_each = gain * covers * model.area() * cells / samples;
-
-    const bool is_mean = out.count <= longest_mean_prefix;
-    out.colors = is_mean ? model.mean_colors(out.count) : model.colors();
-    out.slot_shares = is_mean ? model.mean_shares(out.count) : nullptr;
-    out.slots = model.slots();
-    for (int channel = 0; channel < 3; ++channel) {
-        out.palette[channel] = {};
-        out.palette[channel][model::no_slot] = 32767;
-        for (int slot = 1; slot <= model::slot_count; ++slot) {
-            const float share = static_cast<float>(instance.palette[static_cast<model::Slot>(slot)][channel]) / 255.0f;
-            out.palette[channel][slot] = fixed(share * share);
-        }
-    }
-    if (out.total > 0.0f) {
-        const SplatModel::SlotLights lights = model.lights(person.pose, between, to_sun);
-        for (int channel = 0; channel < 3; ++channel) {
-            out.mean_light[channel] = 0.0f;
-            for (int slot = 0; slot <= model::slot_count; ++slot)
-                out.mean_light[channel] += lights[slot][channel] * (out.palette[channel][slot] / unit);
-        }
-    }
+    take_points(sight, out);
+    place(sight, out);
+    find_bounds(sight, out);
+    weigh(sight, kind.gains, out);
+    color(sight, out);
     return out;
 }
 
