@@ -131,8 +131,9 @@ void Canvas::use(sfsm::Drawing drawing, const Stage& stage, const StadiumOptions
 std::string Canvas::device() const {
     if (*drawing_ == sfsm::Drawing::opengl) return device_->renderer;
     const int threads = tbb::info::default_concurrency();
+    const std::int64_t sets = hwy::SupportedTargets() & HWY_TARGETS;  // the best has the lowest bit
     return "the processor (" + std::to_string(threads) + (threads == 1 ? " thread, " : " threads, ") +
-           hwy::TargetName(hwy::SupportedTargets() & -hwy::SupportedTargets()) + ")";
+           hwy::TargetName(sets & -sets) + ")";
 }
 
 std::string Canvas::driver() const {

@@ -236,17 +236,38 @@ TEST(StadiumProgram, SaysWhichFileItCannotReadOrWrite) {
     EXPECT_FALSE(std::filesystem::exists(trace)) << "a failed run leaves no trace file";
 }
 
+// Mesa's software rasteriser can be taken away from a test, other drivers can't.
+bool has_llvmpipe_alone() {
+    return tests::run("stadium", small + "--draw gl --frames 1 --summary -").out.find("llvmpipe") != std::string::npos;
+}
+
 TEST(StadiumProgram, SaysThatThereIsNoOpenGl) {
-    // Only the software rasteriser can be taken away from a test.
-    if (tests::run("stadium", small + "--frames 1 --summary -").out.find("the processor") == std::string::npos)
-        GTEST_SKIP() << "needs Mesa's llvmpipe as the only driver";
-    const tests::Directory directory;
+    if (!has_llvmpipe_alone()) GTEST_SKIP() << "needs Mesa's llvmpipe as the only driver";
     setenv("MESA_GL_VERSION_OVERRIDE", "3.3", 1);
-    const tests::Outcome outcome = tests::run("stadium", small + "--frames 1");
+    const tests::Outcome outcome = tests::run("stadium", small + "--draw gl --frames 1");
     unsetenv("MESA_GL_VERSION_OVERRIDE");
     EXPECT_EQ(outcome.code, 1);
     EXPECT_TRUE(tests::one_line(outcome.err)) << outcome.err;
     EXPECT_NE(outcome.err.find("4.5"), std::string::npos) << outcome.err;
+}
+
+TEST(StadiumProgram, DrawsNativelyWhereOpenGlIsSoftwareOrMissing) {
+    if (!has_llvmpipe_alone()) GTEST_SKIP() << "needs Mesa's llvmpipe as the only driver";
+    const auto draws_natively = [](const std::string& arguments) {
+        const tests::Outcome outcome = tests::run("stadium", small + arguments + " --frames 1 --summary -");
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        EXPECT_NE(outcome.out.find("the processor"), std::string::npos) << outcome.out;
+    };
+    draws_natively("");
+    draws_natively("--draw native");
+    setenv("MESA_GL_VERSION_OVERRIDE", "3.3", 1);
+    draws_natively("--draw auto");
+    unsetenv("MESA_GL_VERSION_OVERRIDE");
+    setenv("__EGL_VENDOR_LIBRARY_DIRS", "/nowhere", 1);
+    draws_natively("--draw auto");
+    draws_natively("--draw native");
+    unsetenv("__EGL_VENDOR_LIBRARY_DIRS");
+    expect_usage_error("--draw vulkan", "auto, gl or native");
 }
 
 TEST(StadiumProgram, HelpShowsExamples) {
