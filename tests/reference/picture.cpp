@@ -27,7 +27,9 @@ constexpr double edge_on = 0.02;
 // Two passes over everything: first how near the nearest is in each place, then who is that near.
 class Canvas {
 public:
-    explicit Canvas(const Scene& scene) : scene_(scene), camera_(scene.camera) {
+    explicit Canvas(const Scene& scene) : scene_(scene), camera_(scene.camera), samples_(scene.samples) {
+        camera_.width *= samples_;
+        camera_.height *= samples_;
         const std::size_t pixels = static_cast<std::size_t>(camera_.width) * camera_.height;
         nearest_.assign(places.size() * pixels, INFINITY);
         picture_ = {camera_.width, camera_.height, std::vector<glm::dvec3>(pixels),
@@ -51,9 +53,10 @@ private:
         bool centre;  // of a pixel
     };
 
-    // Calls `shade(spot)` for each place that the triangle is nearest in.
+    // Calls `shade(spot)` for each place that the triangle is nearest in. `block`: so many pixels, across and down, are
+    // looked at in the places of their common middle.
     template <typename ShadeOf>
-    void triangle(const std::array<glm::dvec3, 3>& corners, bool two_sided, ShadeOf shade) {
+    void triangle(const std::array<glm::dvec3, 3>& corners, bool two_sided, int block, ShadeOf shade) {
         // Homogeneous pixel coordinates: x and y times depth, and depth (Olano and Greer 1997). No corner need be in
         // front of the camera.
         std::array<glm::dvec3, 3> h;
@@ -67,6 +70,8 @@ private:
         }
         if (std::max({h[0].z, h[1].z, h[2].z}) < Camera::near) return;
         if (behind) low = {0, 0}, high = {camera_.width, camera_.height};
+        low -= block - 1.0;
+        high += block - 1.0;
         if (high.x < -1 || high.y < -1 || low.x > camera_.width + 1 || low.y > camera_.height + 1) return;
         const double determinant = glm::dot(h[0], glm::cross(h[1], h[2]));
         // Pixels count downward, so counter-clockwise is negative.
@@ -80,19 +85,22 @@ private:
         };
         for_each_pixel(low, high, [&](int x, int y) {
             for (std::size_t place = 0; place < places.size(); ++place) {
-                const double px = x + 0.5 + places[place].x, py = y + 0.5 + places[place].y;
+                const double px = middle_of(x, block, places[place].x), py = middle_of(y, block, places[place].y);
                 const glm::dvec3 over_depth = at(px, py);
                 if (over_depth.x < 0 || over_depth.y < 0 || over_depth.z < 0) continue;
                 const double depth = 1 / (over_depth.x + over_depth.y + over_depth.z);
                 if (!(depth >= Camera::near)) continue;
                 put(x, y, place, depth, true, [&] {
-                    const glm::dvec3 right = at(px + 1, py), down = at(px, py + 1);
+                    const glm::dvec3 right = at(px + block, py), down = at(px, py + block);
                     return shade(Spot{over_depth * depth, right / (right.x + right.y + right.z),
                                       down / (down.x + down.y + down.z), place == 0});
                 });
             }
         });
     }
+
+    // Of the block that a pixel is in, or `beside` [blocks] it.
+    static double middle_of(int pixel, int block, double beside) { return block * (pixel / block + 0.5 + beside); }
 
     // x, y [px] times depth, and depth [m].
     glm::dvec3 homogeneous(const glm::dvec3& relative) const {
@@ -185,7 +193,7 @@ private:
         }
         for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
             const std::uint32_t a = mesh.indices[i], b = mesh.indices[i + 1], c = mesh.indices[i + 2];
-            triangle({at[a], at[b], at[c]}, open(mesh), [&](const Spot& spot) {
+            triangle({at[a], at[b], at[c]}, open(mesh), 1, [&](const Spot& spot) {
                 const auto blend = [](const auto& x, const auto& y, const auto& z, const glm::dvec3& by) {
                     return by.x * x + by.y * y + by.z * z;
                 };
@@ -345,7 +353,7 @@ private:
             for (std::size_t k = 0; k < 3; ++k) at[k] = glm::dvec3(corner[k]->position) - camera_.position;
             const bool is_ground = corner[2]->color.a == static_cast<std::uint8_t>(scene::Surface::ground);
             const glm::dvec3 painted = stored(linear(corner[2]->color) * light_on(corner[2]->normal));
-            triangle(at, false, [&](const Spot& spot) {
+            triangle(at, false, samples_, [&](const Spot& spot) {
                 if (!is_ground) return Shade::exactly(painted);
                 const auto xz = [&](const glm::dvec3& by) {
                     const glm::dvec3 world = camera_.position + by.x * at[0] + by.y * at[1] + by.z * at[2];
@@ -371,7 +379,8 @@ private:
                 picture_.sky[pixel] = picture_.shades[pixel].empty();
                 for (std::size_t place = 0; place < places.size(); ++place) {
                     if (nearest_[pixel * places.size() + place] < INFINITY) continue;
-                    const Shade shown = sky(camera_.ray(x + 0.5 + places[place].x, y + 0.5 + places[place].y));
+                    const Shade shown = sky(
+                        camera_.ray(middle_of(x, samples_, places[place].x), middle_of(y, samples_, places[place].y)));
                     add(pixel, shown);
                     if (place == 0) picture_.colors[pixel] = shown.best;
                 }
@@ -380,7 +389,8 @@ private:
     }
 
     const Scene& scene_;
-    const Camera& camera_;
+    Camera camera_;  // of samples
+    int samples_;
     bool collecting_ = false;
     std::vector<double> nearest_;  // [m] by pixel, then place
     std::map<std::pair<const model::Mesh*, int>, std::vector<Level>> mipmaps_;
@@ -392,10 +402,43 @@ double beyond(const Shade& shade, const glm::dvec3& color) {
     return std::max({by.x, by.y, by.z});
 }
 
+glm::dvec3 light_of(const glm::dvec3& code) {
+    return code / 255.0 * (code / 255.0);
+}
+
+// Each pixel the mean light of side x side.
+Picture filtered(const Picture& fine, int side) {
+    Picture picture{fine.width / side, fine.height / side, {}, {}, {}};
+    for (int y = 0; y < picture.height; ++y) {
+        for (int x = 0; x < picture.width; ++x) {
+            glm::dvec3 low(0), high(0), best(0);
+            bool sky = true;
+            for (int i = 0; i < side * side; ++i) {
+                const std::size_t sample =
+                    static_cast<std::size_t>(side * y + i / side) * fine.width + side * x + i % side;
+                glm::dvec3 least(INFINITY), most(-INFINITY);
+                for (const Shade& shade : fine.shades[sample]) {
+                    least = glm::min(least, shade.low);
+                    most = glm::max(most, shade.high);
+                }
+                low += light_of(least) / (1.0 * side * side);
+                high += light_of(most) / (1.0 * side * side);
+                best += light_of(fine.colors[sample]) / (1.0 * side * side);
+                sky = sky && fine.sky[sample];
+            }
+            picture.colors.push_back(stored(best));
+            picture.shades.push_back({{stored(low), stored(high), stored(best)}});
+            picture.sky.push_back(sky);
+        }
+    }
+    return picture;
+}
+
 }  // namespace
 
 Picture draw(const Scene& scene) {
-    return Canvas(scene).draw();
+    Picture picture = Canvas(scene).draw();
+    return scene.samples > 1 ? filtered(picture, scene.samples) : picture;
 }
 
 render::Image Picture::image() const {
@@ -413,6 +456,14 @@ double distance(const render::Image& image, const Picture& picture, int x, int y
     for (const Shade& shade : picture.shades[pixel])
         least = std::min(least, beyond(shade, glm::dvec3(rgb[0], rgb[1], rgb[2])));
     return least;
+}
+
+double mean_error(const render::Image& image, const Picture& picture) {
+    double sum = 0;
+    for (std::size_t i = 0; i < picture.colors.size(); ++i)
+        for (int channel = 0; channel < 3; ++channel)
+            sum += std::abs(image.pixels[3 * i + channel] - picture.colors[i][channel]);
+    return sum / (3.0 * static_cast<double>(picture.colors.size()));
 }
 
 double worst_mean(const render::Image& image, const Picture& picture, int side) {

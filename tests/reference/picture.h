@@ -34,6 +34,7 @@ struct Picture {
     render::Image image() const;
 };
 
+// With several samples a pixel is the mean of their light, and a range unless they are all certain.
 Picture draw(const Scene& scene);
 
 // How a renderer's picture compares.
@@ -55,6 +56,9 @@ inline constexpr double tolerance =
     5;  // [of 255] three for packed normals, one and a half for bytes of looks, rounding
 
 Comparison compare(const render::Image& image, const Picture& picture);
+
+// How far the picture is off from the reference's best, on average over pixels and channels [of 255].
+double mean_error(const render::Image& image, const Picture& picture);
 
 // The farthest that the mean colour of any square of `side` [px] is off from the reference's best [of 255]: what is
 // drawn finer than a pixel is right on average, wherever in a pixel it falls.

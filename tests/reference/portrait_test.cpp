@@ -1,11 +1,8 @@
 // One person at a time before the sky: pose, place, colour and light of every pixel.
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <memory>
-#include <numbers>
 
-#include "model/io/mesh_file.h"
 #include "scene/cast.h"
 #include "scene/person.h"
 #include "tests/reference/harlequin.h"
@@ -14,38 +11,17 @@
 
 namespace {
 
+using reference::camera;
 using reference::Comparison;
 using reference::Model;
 using reference::Person;
+using reference::sitter;
 
 constexpr int width = 200, height = 160;  // [px] unless a test changes it
 const scene::StaticMesh nothing{{{}, {}, {}}, {0, 0, 0}, {}};
 
 class Portrait : public tests::GlTest {
 protected:
-    // Everybody stands here, turned a little, in a world that is not around the origin.
-    static Person sitter(const Model& model, int slot, std::int64_t tick) {
-        Person person;
-        person.figure = &model.figure;
-        person.slot = slot;
-        person.tick = tick;
-        person.origin = {31.5, 4.25, -47};
-        person.yaw = 0.7;
-        person.scale = 1.7 / model.figure.height();
-        person.palette = reference::motley;
-        return person;
-    }
-
-    // From `azimuth` [rad] around the person, 0 = before them, `distance` [m] from their middle.
-    static scene::CameraPose camera(const Person& person, double azimuth, double elevation, double distance) {
-        const double turn = person.yaw + azimuth;
-        scene::CameraPose pose;
-        pose.target = person.origin + glm::dvec3(0, 0.85, 0);
-        pose.position = pose.target + distance * glm::dvec3(std::sin(turn) * std::cos(elevation), std::sin(elevation),
-                                                            std::cos(turn) * std::cos(elevation));
-        return pose;
-    }
-
     // Where all is edges anything may be shown: see that it isn't so.
     void TearDown() override { EXPECT_GE(plain_surface_, least_plain_share_ * surface_); }
 
@@ -66,18 +42,8 @@ protected:
 
     void expect_alike_all_around(const Model& model) {
         render::gl::Renderer renderer(nothing, {}, {}, std::vector{model.product()}, width, height);
-        const int last = std::max(0, static_cast<int>(model.clips.size()) - 1);
-        for (const Person& person : {sitter(model, 0, 0), sitter(model, last, 17)}) {
-            for (const double distance : {0.35, 1.2, 3.0, 12.0, 90.0, 400.0}) {
-                for (int side = 0; side < 6; ++side) {
-                    const double azimuth = side * std::numbers::pi / 3 + 0.1;
-                    const std::string what = model.character.name + " from " + std::to_string(distance) + " m, side " +
-                                             std::to_string(side) + ", clip " + std::to_string(person.slot);
-                    expect_alike(renderer, {&model}, {person},
-                                 camera(person, azimuth, 0.4 * std::sin(7 * side), distance), 0, what);
-                }
-            }
-        }
+        for (const reference::Sitting& one : reference::all_around(model, {0.35, 1.2, 3.0, 12.0, 90.0, 400.0}))
+            expect_alike(renderer, {&model}, {one.person}, one.pose, 0, one.what);
     }
 
     void expect_alike_by_every_number_of_points(const Model& model) {
@@ -119,25 +85,16 @@ std::unique_ptr<Model> harlequin(bool open) {
     return std::make_unique<Model>(reference::make_harlequin(open), std::vector{0, 1}, 800);
 }
 
-std::unique_ptr<Model> from_file(const std::string& name) {
-    const std::filesystem::path file = std::filesystem::path(GRANDSTAND_SHARED) / "assets" / name;
-    if (!std::filesystem::exists(file)) return nullptr;
-    model::Character character = model::load_mesh(file);
-    const std::vector<int> clips = scene::cast(character).clips;
-    const std::size_t points = character.mesh.triangle_count() / 2;
-    return std::make_unique<Model>(std::move(character), clips, points);
-}
-
 class RealPortrait : public Portrait, public testing::WithParamInterface<const char*> {};
 
 TEST_P(RealPortrait, IsTheReferences) {
-    const std::unique_ptr<Model> model = from_file(GetParam());
+    const std::unique_ptr<Model> model = reference::model_of_file(GetParam());
     if (!model) GTEST_SKIP() << "NO ../shared/assets/" << GetParam() << ", IT IS NOT DRAWN";
     expect_alike_all_around(*model);
 }
 
 TEST_P(RealPortrait, IsTheReferencesByAnyNumberOfPoints) {
-    const std::unique_ptr<Model> model = from_file(GetParam());
+    const std::unique_ptr<Model> model = reference::model_of_file(GetParam());
     if (!model) GTEST_SKIP() << "NO ../shared/assets/" << GetParam() << ", IT IS NOT DRAWN";
     expect_alike_by_every_number_of_points(*model);
 }

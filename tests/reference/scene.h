@@ -86,6 +86,9 @@ struct Scene {
     scene::Oval oval;
     double stand_offset = 0;  // [m] from the track's inner line to where the stands begin
     double splat_size = 0;    // [px]
+    // Across a pixel, and down, that people have who are triangles; structure and sky have one, in the middle. Who is
+    // splats is drawn only with one.
+    int samples = 1;
 };
 
 // A frame's decision, told person by person: everybody at `tick`, seen or not. `figures` in the order of

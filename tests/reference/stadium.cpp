@@ -1,25 +1,35 @@
 #include "tests/reference/stadium.h"
 
+#include "tests/reference/studio.h"
+
 namespace reference {
 
-Stadium::Stadium(const tests::SmallScene& scene, int width, int height)
+Stadium::Stadium(const tests::SmallScene& scene, int width, int height, const figures::Way& way)
     : scene_(scene),
       width_(width),
       height_(height),
+      way_(way),
       structure_(scene::build_structure(scene.plan)),
-      renderer_(structure_, scene::paint_ground(scene.plan), {}, scene.figures(), width, height),
-      selector_(scene.crowd, scene.cast, scene.figures()) {
+      renderer_(make_renderer(way, structure_, scene::paint_ground(scene.plan), scene.figures(), width, height)),
+      selector_(scene.crowd, scene.cast, scene.figures(), options_of(way)) {
     figures_.emplace_back(scene.person, scene::cast(scene.person).clips, &scene.points);
 }
 
 Frame Stadium::shoot(const scene::CameraPose& pose, const sfsm::Decision& decision, std::int64_t tick) {
     const render::View view = render::make_view(pose, width_, height_);
-    selector_.survey(view, tick);
-    renderer_.draw(selector_.select(decision, tick - 1));
-    Scene scene{{pose, width_, height_}, {}, &structure_, scene_.plan.oval, scene_.plan.stand_offset,
-                decision.splat_size};
+    selector_.survey(view, tick, renderer_->begin(view));
+    renderer_->draw(selector_.select(decision, tick - 1));
+    Scene scene{{pose, width_, height_},
+                {},
+                &structure_,
+                scene_.plan.oval,
+                scene_.plan.stand_offset,
+                decision.splat_size,
+                samples_of(way_, decision.splat_size)};
     scene.people = people_of(scene_.crowd, scene_.cast, scene_.poses, figures_, scene.camera, decision, tick);
-    return {renderer_.read_image(), draw(scene)};
+    if (way_.drawing == sfsm::Drawing::native)
+        for (Person& person : scene.people) person.points = 0;
+    return {renderer_->read_image(), draw(scene)};
 }
 
 }  // namespace reference

@@ -3,7 +3,8 @@
 
 #include <memory>
 
-#include "render/gl/renderer.h"
+#include "figures/way.h"
+#include "render/renderer.h"
 #include "render/select.h"
 #include "tests/reference/picture.h"
 #include "tests/render/small_scene.h"
@@ -15,10 +16,10 @@ struct Frame {
     Picture expected;
 };
 
-// Needs a current context.
+// By OpenGL it needs a current context. By the processor, whoever is points is expected to look as their triangles do.
 class Stadium {
 public:
-    Stadium(const tests::SmallScene& scene, int width, int height);
+    Stadium(const tests::SmallScene& scene, int width, int height, const figures::Way& way = figures::by_opengl());
 
     Frame shoot(const scene::CameraPose& pose, const sfsm::Decision& decision, std::int64_t tick);
     scene::CameraPose preset(const char* name, double seconds = 0) const {
@@ -26,11 +27,18 @@ public:
     }
 
 private:
+    static render::SelectOptions options_of(const figures::Way& way) {
+        render::SelectOptions options;
+        options.way = &way;
+        return options;
+    }
+
     const tests::SmallScene& scene_;
     int width_, height_;  // [px]
+    const figures::Way& way_;
     scene::StaticMesh structure_;
     std::vector<Figure> figures_;
-    render::gl::Renderer renderer_;
+    std::unique_ptr<render::Renderer> renderer_;
     render::Selector selector_;
 };
 

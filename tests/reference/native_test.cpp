@@ -1,0 +1,144 @@
+// The processor's pictures against the reference's: five characters before the sky, and the stadium's presets. Needs no
+// OpenGL.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/reference/stadium.h"
+#include "tests/reference/studio.h"
+
+namespace {
+
+using reference::Comparison;
+using sfsm::Decision;
+using sfsm::State;
+
+const figures::Way& way = figures::natively();
+const scene::StaticMesh nothing{{{}, {}, {}}, {0, 0, 0}, {}};
+
+// [of 255] That bytes are round alone makes 0.38: the mean of the largest of three errors of up to a half.
+// A plain body that fills the picture adds a packed normal's share.
+constexpr double most_mean = 1;
+
+// As triangles. Pixels may be off by reference::tolerance, as OpenGL's may, with these exceptions:
+struct Exceptions {
+    double plain, all;  // the shares of plain pixels, and of all, that may be off by more
+};
+
+void expect_alike(const render::Image& image, const reference::Picture& expected, const Exceptions& exceptions,
+                  const std::string& what) {
+    const Comparison found = reference::compare(image, expected);
+    EXPECT_LE(found.wrong_plain, 1 + exceptions.plain * found.plain) << what << ": " << found.text();
+    EXPECT_LE(found.wrong, 1 + exceptions.all * found.pixels) << what << ": " << found.text();
+    EXPECT_LE(found.mean, most_mean) << what << ": " << found.text();
+}
+
+// As points. Where in a pixel a point falls is left to chance, so that squares of some pixels are compared.
+struct Averages {
+    int side;            // [px]
+    double worst, mean;  // [of 255] of any square, and of pixels
+};
+
+void expect_alike_on_average(const render::Image& image, const reference::Picture& expected, const Averages& most,
+                             const std::string& what) {
+    const double worst = reference::worst_mean(image, expected, most.side);
+    const double mean = reference::mean_error(image, expected);
+    EXPECT_LE(worst, most.worst) << what;
+    EXPECT_LE(mean, most.mean) << what;
+}
+
+class NativePortrait : public testing::TestWithParam<const char*> {
+protected:
+    static constexpr int width = 200, height = 160;  // [px]
+
+    void SetUp() override {
+        model_ = reference::model_of_file(GetParam(), way);
+        if (!model_) GTEST_SKIP() << "NO ../shared/assets/" << GetParam() << ", IT IS NOT DRAWN";
+        renderer_ = reference::make_renderer(way, nothing, {}, std::vector{model_->product()}, width, height);
+    }
+
+    render::Image shoot(const reference::Person& person, const scene::CameraPose& pose, double splat_size) {
+        const render::View view = render::make_view(pose, width, height);
+        const reference::Model* const models[] = {model_.get()};
+        renderer_->begin(view);
+        renderer_->draw(reference::frame_of({&person, 1}, models, view, splat_size, way));
+        return renderer_->read_image();
+    }
+
+    reference::Picture expect(const reference::Person& person, const scene::CameraPose& pose, double splat_size) const {
+        return reference::draw(
+            {{pose, width, height}, {person}, nullptr, {}, 0, splat_size, reference::samples_of(way, splat_size)});
+    }
+
+    std::unique_ptr<reference::Model> model_;
+    std::unique_ptr<render::Renderer> renderer_;
+};
+
+TEST_P(NativePortrait, IsTheReferences) {
+    // Vertices are snapped to a 32nd of a pixel, the places that the reference looks at are a 32nd apart from a sample.
+    constexpr Exceptions exceptions{0, 1.0 / 2000};
+    for (const reference::Sitting& one : reference::all_around(*model_, {0.35, 1.2, 3.0, 12.0, 90.0, 400.0}))
+        expect_alike(shoot(one.person, one.pose, 0), expect(one.person, one.pose, 0), exceptions, one.what);
+}
+
+TEST_P(NativePortrait, IsTheReferencesOnAverageByPoints) {
+    // Splats of S pixels blur outlines by about as much, and textures.
+    constexpr double worst_by_size = 15, most_mean_error = 0.6;  // [of 255 / px], [of 255]
+    constexpr std::size_t every = 5;                             // of the sittings: with all sides, and both poses
+    const std::vector<reference::Sitting> all = reference::all_around(*model_, {40.0, 120.0});
+    for (std::size_t i = 0; i < all.size(); i += every) {
+        const reference::Sitting& one = all[i];
+        const reference::Picture expected = expect(one.person, one.pose, 1);
+        const double distance = glm::distance(one.pose.position, one.pose.target);
+        const render::View view = render::make_view(one.pose, width, height);
+        const double pixels = one.person.scale * view.pixels_per_metre(static_cast<float>(distance));
+        const figures::Figure figure = model_->product();
+        for (const double splat_size : {1.0}) {
+            const double squares = figure.poses->area * pixels * pixels / (splat_size * splat_size);
+            reference::Person by_points = one.person;
+            by_points.points =
+                figures::part_of(way.representations[1].levels(figure).back(), static_cast<float>(1.2 * squares)).count;
+            expect_alike_on_average(shoot(by_points, one.pose, splat_size), expected,
+                                    {8, worst_by_size * splat_size, most_mean_error},
+                                    one.what + ", S " + std::to_string(splat_size));
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, NativePortrait,
+                         testing::Values("CesiumMan/CesiumMan.glb", "Fox/Fox.glb", "KayKitMage/Mage.glb",
+                                         "QuaterniusKnight/KnightCharacter.glb", "RaylibRobot/robot.glb"));
+
+class NativeStadiumPicture : public testing::TestWithParam<const char*> {
+protected:
+    static constexpr std::int64_t tick = 1234;
+
+    reference::Frame shoot(const Decision& decision) {
+        static const tests::SmallScene scene(600, 2);
+        static reference::Stadium stadium(scene, 320, 180, way);
+        return stadium.shoot(stadium.preset(GetParam()), decision, tick);
+    }
+};
+
+TEST_P(NativeStadiumPicture, IsTheReferences) {
+    constexpr Exceptions exceptions{0, 1.0 / 2000};
+    for (const Decision& decision : {Decision{}, Decision{State::slowed, 1, 0}, Decision{State::slowed, 30, 0}}) {
+        const reference::Frame frame = shoot(decision);
+        expect_alike(frame.drawn, frame.expected, exceptions,
+                     std::string(GetParam()) + ", D = " + std::to_string(decision.motion_distance));
+    }
+}
+
+TEST_P(NativeStadiumPicture, IsTheReferencesOnAverageByPoints) {
+    // Coverage is right on average, and outlines are spread over the pixels beside them.
+    constexpr Averages most{20, 8, 3};
+    for (const double splat_size : {1.0}) {
+        const reference::Frame frame = shoot({State::points, 40, splat_size});
+        expect_alike_on_average(frame.drawn, frame.expected, most,
+                                std::string(GetParam()) + ", S " + std::to_string(splat_size));
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Presets, NativeStadiumPicture, testing::Values("still", "close", "medium", "remote"));
+
+}  // namespace
