@@ -142,8 +142,7 @@ hn::Vec<Cell> between(const std::int16_t* a, const std::int16_t* b, std::int16_t
 // Which groups of pixels can still be seen through, a bit each. The last one's pixels beyond `count` count too.
 std::uint64_t OpenGroups(const Cover* cover, int count) {
     std::uint64_t open = 0;
-    for (int x = 0; x < count; x += group_cells)
-        open |= std::uint64_t{is_open(cover + x)} << (x / group_cells);
+    for (int x = 0; x < count; x += group_cells) open |= std::uint64_t{is_open(cover + x)} << (x / group_cells);
     return open;
 }
 

@@ -283,7 +283,7 @@ struct alignas(64) EdgeGroup {
     std::int32_t most[3][group];   // that it gains within a block
     // How much of corner k = 1, 2 a sample is: scale * edge + rest[k - 1].
     float scale[group], rest[2][group];
-    float nearest[group];  // that any sample may be
+    float nearest[group];                                         // that any sample may be
     float depth[group], depth_second[group], depth_third[group];  // depth + edge 1 * second + edge 2 * third
     std::int32_t first_column[group], end_column[group], first_row[group], end_row[group];  // blocks from the person's
 
@@ -517,9 +517,7 @@ void shade(const Shading& shading, const EdgeGroup& edges, int t, VFloat edge1, 
         const auto value = [&](const PlainShading& s, int i) {
             return between(s.at[i], s.second[i], s.third[i], edge1, edge2);
         };
-        const auto color = [&](int i) {
-            return hn::Mul(value(shading.plain, i), value(shading.albedo, i));
-        };
+        const auto color = [&](int i) { return hn::Mul(value(shading.plain, i), value(shading.albedo, i)); };
         store(color(0), color(1), color(2), mask, block, lane);
     } else {
         const auto share = [&](VFloat from, float rest) {
@@ -586,9 +584,7 @@ void fill_block(const EdgeGroup& edges, int t, const std::int32_t (&start)[3], i
     const Ints i;
     bool changed = false;
     for (int lane = 0; lane < group; lane += lanes) {
-        const auto edge = [&](int k) {
-            return edge_at(edges.slope[k][t], start[k], square_offsets.samples[b], lane);
-        };
+        const auto edge = [&](int k) { return edge_at(edges.slope[k][t], start[k], square_offsets.samples[b], lane); };
         const auto edge1 = edge(1), edge2 = edge(2);
         FloatMask mask = hn::RebindMask(f, hn::Gt(hn::Or(hn::Or(edge(0), edge1), edge2), hn::Set(i, -1)));
         const auto exact1 = hn::ConvertTo(f, edge1), exact2 = hn::ConvertTo(f, edge2);
@@ -616,9 +612,8 @@ void fill_blocks(const Filling& by, int x, int y, const std::int32_t (&start)[3]
                  NearLayer& layer) {
     for (; some != 0; some &= some - 1) {
         const int b = std::countr_zero(some);
-        fill_block(by.edges, by.t, start, b,
-                   layer.block(by.column + x + b % square_side, by.row + y + b / square_side), shading,
-                   [&] { find_shading(by.dress, by.face, by.is_flat, by.edges, by.t, shading); });
+        fill_block(by.edges, by.t, start, b, layer.block(by.column + x + b % square_side, by.row + y + b / square_side),
+                   shading, [&] { find_shading(by.dress, by.face, by.is_flat, by.edges, by.t, shading); });
     }
 }
 
@@ -629,9 +624,9 @@ HWY_NOINLINE void fill_large(const Filling& by, int columns, int rows, NearLayer
     Shading shading;
     for (int y = 0; y < rows; y += square_side) {
         for (int x = 0; x < columns; x += square_side) {
-            const std::uint32_t open =
-                within.columns[std::min(columns - x, square_side)] & within.rows[std::min(rows - y, square_side)] &
-                open_blocks(layer.farthest(by.column + x, by.row + y), edges.nearest[t]);
+            const std::uint32_t open = within.columns[std::min(columns - x, square_side)] &
+                                       within.rows[std::min(rows - y, square_side)] &
+                                       open_blocks(layer.farthest(by.column + x, by.row + y), edges.nearest[t]);
             if (open == 0) continue;
             std::int32_t start[3];
             for (int k = 0; k < 3; ++k)
@@ -651,8 +646,8 @@ void fill_triangle(const Filling& by, NearLayer& layer) {
     const int t = by.t;
     const int columns = edges.end_column[t] - edges.first_column[t], rows = edges.end_row[t] - edges.first_row[t];
     if (columns > square_side || rows > square_side) return fill_large(by, columns, rows, layer);
-    const std::uint32_t open = within.columns[columns] & within.rows[rows] &
-                               open_blocks(layer.farthest(by.column, by.row), edges.nearest[t]);
+    const std::uint32_t open =
+        within.columns[columns] & within.rows[rows] & open_blocks(layer.farthest(by.column, by.row), edges.nearest[t]);
     if (open == 0) return;
     const std::int32_t start[3] = {edges.start[0][t], edges.start[1][t], edges.start[2][t]};
     const std::uint32_t some = open & touched_blocks(edges, t, start);

@@ -45,8 +45,8 @@ struct SplatPerson {
     std::array<std::array<std::int16_t, 8>, 3> palette;  // linear, by channel, of slots 0 to slot_count
     int count;                                           // points, the last of which counts for `last_share`
     std::int16_t last_share;
-    float silhouette;    // [cells]
-    float total;         // [cells] that the points add up to; 0: to what `area_each` gives
+    float silhouette;  // [cells]
+    float total;       // [cells] that the points add up to; 0: to what `area_each` gives
     // Of few points also their colours depend on which they are: together they send this light, 1 = white.
     std::array<float, 3> mean_light;
     float area_each;     // [cells] of a point that faces the eye, with a facet and a share of 1

@@ -75,8 +75,8 @@ public:
         return summed_[std::size_t{key_of_[pose]} * direction_nodes + node];
     }
     // What is seen from there of somebody on whom the sun shines along `to_sun`, in the model's axes: the mean linear
-    // light of each channel that surfaces of a slot send, where the slot's own colour is white. Summed over slots, times
-    // their colours, it is the mean light of the silhouette.
+    // light of each channel that surfaces of a slot send, where the slot's own colour is white. Summed over slots,
+    // times their colours, it is the mean light of the silhouette.
     using SlotLights = std::array<glm::vec3, 1 + model::slot_count>;
     SlotLights lights(std::uint32_t pose, const Between& between, glm::vec3 to_sun) const;
 

@@ -33,8 +33,8 @@ public:
     // Pixels of the picture that person `i` of `people` may touch; empty: none.
     Rect bounds(std::size_t i) const { return bounds_[i]; }
     std::span<const Rect> bounds() const { return bounds_; }
-    // Where samples are equally near, who was drawn first stays. In any other order the same is drawn, but from front to
-    // back it is cheapest: whatever is hidden by what is in the layer already is skipped. For one layer at a time on
+    // Where samples are equally near, who was drawn first stays. In any other order the same is drawn, but from front
+    // to back it is cheapest: whatever is hidden by what is in the layer already is skipped. For one layer at a time on
     // each thread.
     void draw(std::size_t i, NearLayer& layer) const;
 
