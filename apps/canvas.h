@@ -48,7 +48,6 @@ public:
 
 private:
     void open(const StadiumOptions& options);
-    bool open_for_drawing(const StadiumOptions& options);
     void use(sfsm::Drawing drawing, const Stage& stage, const StadiumOptions& options);
 
     std::unique_ptr<render::gl::Window> window_;

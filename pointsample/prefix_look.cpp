@@ -5,22 +5,26 @@
 
 namespace pointsample {
 
-namespace {
+float squared_distance(const PointModel& model, std::size_t a, std::size_t b) {
+    constexpr float opposed = 2.0f * 2.0f;  // distances are squared
+    const glm::vec3 apart = model.positions[a] - model.positions[b];
+    const bool faces_away = glm::dot(model.normals[a], model.normals[b]) < 0.0f;
+    return glm::dot(apart, apart) * (faces_away ? opposed : 1.0f);
+}
 
-std::size_t nearest(const PointModel& model, std::size_t point, std::size_t count) {
+std::size_t nearest_of_prefix(const PointModel& model, std::size_t point, std::size_t count) {
     std::size_t best = 0;
     float best_distance = std::numeric_limits<float>::infinity();
     for (std::size_t i = 0; i < count; ++i) {
-        constexpr float opposed = 2.0f * 2.0f;  // distances are squared
-        const glm::vec3 apart = model.positions[i] - model.positions[point];
-        const bool faces_away = glm::dot(model.normals[i], model.normals[point]) < 0.0f;
-        const float distance = glm::dot(apart, apart) * (faces_away ? opposed : 1.0f);
+        const float distance = squared_distance(model, i, point);
         if (distance >= best_distance) continue;
         best_distance = distance;
         best = i;
     }
     return best;
 }
+
+namespace {
 
 struct Sum {
     glm::vec3 light{0.0f};                             // the shaders' linear: sRGB squared, each in [0, 1]
@@ -45,7 +49,7 @@ std::vector<PrefixLook> prefix_looks(const PointModel& model, std::size_t count)
     std::vector<Sum> sums(count);
     for (std::size_t point = 0; point < model.size(); ++point) {
         // A prefix point is its own nearest, so that no sum stays empty.
-        Sum& sum = sums[point < count ? point : nearest(model, point, count)];
+        Sum& sum = sums[point < count ? point : nearest_of_prefix(model, point, count)];
         const glm::vec3 color = glm::vec3(model.colors[point]) / 255.0f;
         sum.light += color * color;
         sum.slots[model.slots[point]] += 1.0f;

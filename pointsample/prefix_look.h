@@ -12,6 +12,13 @@
 
 namespace pointsample {
 
+// Between two of a model's points; facing the other way counts as twice as far, so that the two sides of something thin
+// stay apart [units^2].
+float squared_distance(const PointModel& model, std::size_t a, std::size_t b);
+
+// Which of the first `count` points, at least one, is nearest to `point` by that; of equal ones the first.
+std::size_t nearest_of_prefix(const PointModel& model, std::size_t point, std::size_t count);
+
 // The mean over the part of the surface that is nearest to one point of the prefix.
 struct PrefixLook {
     glm::u8vec4 color;                                   // of the light, sRGB-encoded

@@ -366,12 +366,7 @@ void CoverTile::lay(const SplatPerson& person, const Patch& patch, const NearLay
 }
 
 void CoverTile::lay_stretched(const SplatPerson& person, const Patch& patch, const NearLayer* near, Layers layers) {
-    const auto for_each_group = [&](auto visit) {
-        for (int y = 0; y < patch.height; ++y)
-            for (std::uint64_t left = patch.used[y]; left != 0; left &= left - 1)
-                visit(patch.cells + std::ptrdiff_t{8} * (patch.stride * y + group_cells * std::countr_zero(left)));
-    };
-    for_each_group([](std::int16_t* cell) { HWY_DYNAMIC_DISPATCH(ThinCells)(cell, group_cells); });
+    for_each_used_group(patch, [](std::int16_t* cell) { HWY_DYNAMIC_DISPATCH(ThinCells)(cell, group_cells); });
     const auto along = [&](int pixel, int first, int size) {
         const float place = (static_cast<float>(pixel) + 0.5f) / person.cell - 0.5f - static_cast<float>(first);
         const float clamped = std::clamp(place, 0.0f, static_cast<float>(size - 1) - 0.001f);
@@ -388,13 +383,14 @@ void CoverTile::lay_stretched(const SplatPerson& person, const Patch& patch, con
             &cover_[index_of(x0, y)], line_.data(), stretched_.data());
         if (used != 0) lay_row(person, stretched_.data(), used, {x0, y, x1, y + 1}, near, layers);
     }
-    for_each_group([](std::int16_t* cell) { std::fill_n(cell, 8 * group_cells, std::int16_t{0}); });
-    std::fill_n(patch.used, patch.height, std::uint64_t{0});
+    clear(patch);
 }
 
 void CoverTile::resolve(Plane<std::uint32_t>& out) {
-    for (int y = tile_.y0; y < tile_.y1; ++y) HWY_DYNAMIC_DISPATCH(ResolveRow)
-    (&cover_[index_of(tile_.x0, y)], behind_->color.row(y) + tile_.x0, out.row(y) + tile_.x0, tile_.x1 - tile_.x0);
+    const auto resolve_row = HWY_DYNAMIC_DISPATCH(ResolveRow);
+    for (int y = tile_.y0; y < tile_.y1; ++y)
+        resolve_row(&cover_[index_of(tile_.x0, y)], behind_->color.row(y) + tile_.x0, out.row(y) + tile_.x0,
+                    tile_.x1 - tile_.x0);
 }
 
 }  // namespace render::native

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 
+#include "pointsample/prefix_look.h"
+
 namespace render::native {
 
 namespace {
@@ -16,13 +18,6 @@ constexpr std::size_t neighbours = 8;
 void make_mean_one(std::vector<float>& shares) {
     const float sum = std::accumulate(shares.begin(), shares.end(), 0.0f);
     for (float& share : shares) share *= static_cast<float>(shares.size()) / sum;
-}
-
-// Squared; facing the other way counts as twice as far, so that the two sides of something thin stay apart.
-float distance(const pointsample::PointModel& model, std::size_t a, std::size_t b) {
-    constexpr float opposed = 2.0f * 2.0f;
-    const glm::vec3 apart = model.positions[a] - model.positions[b];
-    return glm::dot(apart, apart) * (glm::dot(model.normals[a], model.normals[b]) < 0.0f ? opposed : 1.0f);
 }
 
 }  // namespace
@@ -48,7 +43,7 @@ Shares::Shares(const pointsample::PointModel& model) : model_(model), own_(model
         std::array<float, neighbours> nearest;
         nearest.fill(std::numeric_limits<float>::infinity());
         for (std::size_t j = 0; j < model.size(); ++j) {
-            const float d = distance(model, i, j);
+            const float d = pointsample::squared_distance(model, i, j);
             if (j == i || !(d < nearest.back())) continue;
             nearest.back() = d;
             for (std::size_t k = neighbours - 1; k > 0 && nearest[k] < nearest[k - 1]; --k)
@@ -62,17 +57,8 @@ Shares::Shares(const pointsample::PointModel& model) : model_(model), own_(model
 std::vector<float> Shares::of_first(std::size_t count) const {
     if (count == model_.size()) return own_;
     std::vector<float> shares(own_.begin(), own_.begin() + static_cast<std::ptrdiff_t>(count));
-    for (std::size_t point = count; point < model_.size(); ++point) {
-        std::size_t nearest = 0;
-        float least = distance(model_, 0, point);
-        for (std::size_t i = 1; i < count; ++i) {
-            const float d = distance(model_, i, point);
-            if (d >= least) continue;
-            least = d;
-            nearest = i;
-        }
-        shares[nearest] += own_[point];
-    }
+    for (std::size_t point = count; point < model_.size(); ++point)
+        shares[pointsample::nearest_of_prefix(model_, point, count)] += own_[point];
     make_mean_one(shares);
     return shares;
 }

@@ -236,13 +236,16 @@ void SplatPerson::prefetch() const {
 void PointPeople::make_kind(std::uint32_t character) {
     kinds_[character] = std::make_unique<Kind>(figures_[character], daylight_);
     Gains gains;
-    gains.measure([&](float cells, float points, int trial) { return draw_alone(character, cells, points, trial); },
-                  static_cast<float>(kinds_[character]->model.points()));
+    PatchRoom room;
+    gains.measure(
+        [&](float cells, float points, int trial) { return draw_alone(character, cells, points, trial, room); },
+        static_cast<float>(kinds_[character]->model.points()));
     kinds_[character]->gains = gains;
 }
 
 // In a pose, from a direction and with a fraction of a pixel that the trial's number chooses.
-Gains::Trial PointPeople::draw_alone(std::uint32_t character, float cells, float points, int trial) const {
+Gains::Trial PointPeople::draw_alone(std::uint32_t character, float cells, float points, int trial,
+                                     PatchRoom& room) const {
     const motion::PoseTable& poses = *figures_[character].poses;
     const auto chance = [&](float step) { return std::fmod(step * static_cast<float>(trial + 1), 1.0f); };
     const float yaw = 6.2831853f * chance(0.618034f), height = 1.6f * chance(0.754878f) - 0.6f;
@@ -273,18 +276,15 @@ Gains::Trial PointPeople::draw_alone(std::uint32_t character, float cells, float
     person.instance.position += pixel * (chance(0.414214f) * view.right + chance(0.732051f) * view.up);
     const SplatPerson drawn = ready(view, person, 1.0f);
 
-    std::vector<std::int16_t> lanes(std::size_t{8} * largest_patch_side * largest_patch_side);
-    std::vector<std::uint64_t> used(largest_patch_side);
-    Patch patch;
-    patch.cells = lanes.data();
-    patch.used = used.data();
-    patch.x0 = patch.y0 = -2;
-    patch.width = patch.height = patch.stride = largest_patch_side;
+    const Patch patch = room.patch(-2, -2, largest_patch_side, largest_patch_side);
     splat(drawn, light_, patch);
     Gains::Trial out;
     out.silhouette = static_cast<double>(drawn.silhouette);
-    for (std::size_t cell = 0; cell < lanes.size(); cell += 8)
-        if (lanes[cell + 3] > 0) out.coverage.push_back(static_cast<float>(lanes[cell + 3]) / cell_full);
+    for_each_used_group(patch, [&](std::int16_t* group) {
+        for (int lane = 3; lane < 8 * group_cells; lane += 8)
+            if (group[lane] > 0) out.coverage.push_back(static_cast<float>(group[lane]) / cell_full);
+    });
+    clear(patch);
     return out;
 }
 

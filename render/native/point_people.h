@@ -36,7 +36,7 @@ private:
     };
 
     void make_kind(std::uint32_t character);
-    Gains::Trial draw_alone(std::uint32_t character, float cells, float points, int trial) const;
+    Gains::Trial draw_alone(std::uint32_t character, float cells, float points, int trial, PatchRoom& room) const;
     SplatPerson ready(const View& view, const Person& person, float cell) const;
 
     std::vector<figures::Figure> figures_;

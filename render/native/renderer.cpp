@@ -165,15 +165,12 @@ void Renderer::draw_point_person(const SplatPerson& person, Easel& easel, Layers
     const auto cell_at = [&](int pixel) {
         return static_cast<int>(std::floor(static_cast<float>(pixel) / person.cell));
     };
-    Patch patch;
-    patch.x0 = std::max<int>(person.x0, cell_at(open.x0) - 2);
-    patch.y0 = std::max<int>(person.y0, cell_at(open.y0) - 2);
-    patch.width = std::min<int>(person.x1, cell_at(open.x1 - 1) + 3) - patch.x0;
-    patch.height = std::min<int>(person.y1, cell_at(open.y1 - 1) + 3) - patch.y0;
-    if (patch.width < 2 || patch.height < 2) return;
-    patch.stride = (patch.width + group_cells - 1) / group_cells * group_cells;
-    patch.cells = easel.cells.data();
-    patch.used = easel.used.data();
+    const int x0 = std::max<int>(person.x0, cell_at(open.x0) - 2);
+    const int y0 = std::max<int>(person.y0, cell_at(open.y0) - 2);
+    const int width = std::min<int>(person.x1, cell_at(open.x1 - 1) + 3) - x0;
+    const int height = std::min<int>(person.y1, cell_at(open.y1 - 1) + 3) - y0;
+    if (width < 2 || height < 2) return;
+    const Patch patch = easel.room.patch(x0, y0, width, height);
     splat(person, points_.light(), patch);
     easel.cover.lay(person, patch, layers == Layers::all ? nullptr : &easel.near, layers);
 }

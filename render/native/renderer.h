@@ -7,7 +7,6 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -49,8 +48,7 @@ private:
     struct Easel {
         CoverTile cover;
         NearLayer near;
-        Array<std::int16_t> cells = Array<std::int16_t>(std::size_t{8} * largest_patch_side * largest_patch_side);
-        std::array<std::uint64_t, largest_patch_side> used{};  // both all 0 between two people
+        PatchRoom room;
     };
 
     bool is_drawn_already(const Frame& frame) const;

@@ -5,7 +5,10 @@
 // people coverage multiplies: they know nothing of one another. docs/native-splats.md has the whole story.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 
 #include "model/slot.h"
@@ -75,6 +78,32 @@ struct Patch {
 };
 inline constexpr int group_cells = 4;
 inline constexpr int largest_patch_side = 136;  // [cells]; offsets of cells fit 16 bits
+
+// Calls `visit` with the first lane of every group that isn't all 0, row by row.
+template <typename Visit>
+void for_each_used_group(const Patch& patch, Visit visit) {
+    for (int y = 0; y < patch.height; ++y)
+        for (std::uint64_t left = patch.used[y]; left != 0; left &= left - 1)
+            visit(patch.cells + std::ptrdiff_t{8} * (patch.stride * y + group_cells * std::countr_zero(left)));
+}
+
+// Makes it all 0 again.
+inline void clear(const Patch& patch) {
+    for_each_used_group(patch, [](std::int16_t* first) { std::fill_n(first, 8 * group_cells, std::int16_t{0}); });
+    std::fill_n(patch.used, patch.height, std::uint64_t{0});
+}
+
+// Memory for one patch at a time; all 0 between two people.
+struct PatchRoom {
+    Array<std::int16_t> cells = Array<std::int16_t>(std::size_t{8} * largest_patch_side * largest_patch_side);
+    std::array<std::uint64_t, largest_patch_side> used{};
+
+    // Sides in [2, largest_patch_side].
+    Patch patch(int x0, int y0, int width, int height) {
+        const int stride = (width + group_cells - 1) / group_cells * group_cells;
+        return {cells.data(), used.data(), x0, y0, width, height, stride};
+    }
+};
 
 // Adds a person up in a patch that is all 0.
 void splat(const SplatPerson& person, const SplatLight& light, const Patch& patch);

@@ -23,13 +23,10 @@ inline constexpr int longest_two_sided_prefix = 16;
 
 class SplatModel {
 public:
-    // Takes about a second of processor time for a person of a
-    // thousand poses, on all threads.
+    // Takes some seconds of processor time for a person of a thousand poses, on all threads.
     SplatModel(const figures::Figure& figure, const scene::Light& light);
 
     int points() const { return points_; }
-    int chunks() const { return chunks_; }
-    bool double_sided() const { return double_sided_; }
 
     // Of a pose, [chunk][axis][chunk_points]: positions, -32768 to 32767 over the character's box; normals, 127 = 1;
     // and facets (facets.h), 64 = 1.

@@ -10,6 +10,7 @@
 #include "render/gl/renderer.h"
 #include "render/native/renderer.h"
 #include "render/select.h"
+#include "tests/bench/fidelity.h"
 #include "tests/bench/flip.h"
 #include "tests/render/gl_test.h"
 #include "tests/render/small_scene.h"
@@ -56,23 +57,6 @@ struct Stadium {
 };
 
 constexpr const char* presets[] = {"still", "close", "medium", "remote"};
-
-// Each pixel the mean light of side x side.
-render::Image filtered(const render::Image& fine, int side) {
-    render::Image image{fine.width / side, fine.height / side, {}};
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x)
-            for (int channel = 0; channel < 3; ++channel) {
-                double light = 0;
-                for (int i = 0; i < side * side; ++i) {
-                    const std::size_t pixel =
-                        static_cast<std::size_t>(side * y + i / side) * fine.width + side * x + i % side;
-                    light += std::pow(fine.pixels[3 * pixel + channel] / 255.0, 2) / (side * side);
-                }
-                image.pixels.push_back(static_cast<std::uint8_t>(std::lround(255 * std::sqrt(light))));
-            }
-    return image;
-}
 
 // [of 255] of the channel that differs most.
 int apart(const std::uint8_t* a, const std::uint8_t* b) {
@@ -126,7 +110,7 @@ TEST_F(NativeAndGl, DifferByPointsLittleMoreThanTheyAreOff) {
     Stadium stadium;
     for (const char* preset : presets) {
         const scene::CameraPose pose = stadium.cameras.named(preset).at(0);
-        const render::Image truth = filtered(stadium.by_gl.shoot(pose, {}, finer), finer);
+        const render::Image truth = bench::box_filtered(stadium.by_gl.shoot(pose, {}, finer), finer);
         const render::Image gl = stadium.by_gl.shoot(pose, points), native = stadium.natively.shoot(pose, points);
         const double of_gl = bench::mean_flip_error(truth, gl), of_native = bench::mean_flip_error(truth, native);
         const double between = bench::mean_flip_error(gl, native);
