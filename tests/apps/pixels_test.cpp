@@ -80,8 +80,8 @@ void read_trace(const std::string& text, Drawn& drawn) {
 Drawn draw(const Picture& picture) {
     const tests::Directory directory;
     const std::string png = directory / "picture.png", trace = directory / "trace.csv";
-    const tests::Outcome outcome =
-        tests::run("stadium", "--headless --size 480x270 " + picture.arguments + " --png " + png + " --trace " + trace);
+    const tests::Outcome outcome = tests::run(
+        "stadium", "--headless --draw gl --size 480x270 " + picture.arguments + " --png " + png + " --trace " + trace);
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     Drawn drawn;
     int width = 0, height = 0, channels = 0;
