@@ -7,12 +7,8 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
-#include <array>
-#include <bit>
+#include <bitset>
 #include <cmath>
-#include <cstring>
-#include <span>
-#include <utility>
 
 #include "render/view.h"
 
@@ -21,24 +17,12 @@
 
 namespace render::native {
 
-// Who lays something on a pixel of which no more is open than this can't be seen.
-inline constexpr std::int16_t closed = pixel_full / 4096;
-
-// Where a pixel is among cells: in [0, last - 1], and the share of the next, 32767 = 1.
-struct Along {
-    std::int16_t cell, share;
-};
-
-// A row of a patch of cells as large as pixels, and what it is laid into, from the same pixel on.
-struct CoverRow {
-    std::int16_t* cells;
-    std::uint64_t used;  // groups of cells
-    Cover* cover;
-    Flock* flock;
-    int first, last;  // only these cells are in the tile
-    // near_plane / view depth at each pixel: what hides people behind it; and, if not null, what people must be behind.
-    const float* hidden_behind;
-    const float* shown_behind;
+// Between two rows of cells: the share of the second.
+struct CellRows {
+    const Cover *above, *below;
+    const float *nearness_above, *nearness_below;  // CoverCells::nearness
+    int cells;
+    float share;
 };
 
 }  // namespace render::native
@@ -51,183 +35,60 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Cells = hn::CappedTag<std::int16_t, 4 * group_cells>;
-constexpr Cells cells;
-using Vector = hn::Vec<Cells>;
 constexpr hn::CappedTag<float, 16> floats;
 constexpr hn::Rebind<std::int32_t, decltype(floats)> ints;
 constexpr hn::Rebind<std::uint16_t, decltype(floats)> shorts;
 using Floats = hn::Vec<decltype(floats)>;
-constexpr int most_lanes = 16;
-
-// How far back each pixel lets people be seen, in their reach from their middle, 32767 = 1. Outside of the tile
-// nowhere.
-void find_limits(const SplatPerson& person, const CoverRow& row, const float* depth, std::int16_t* limits) {
-    constexpr std::int16_t nowhere = -32768;
-    const hn::Rebind<std::int16_t, decltype(floats)> out;
-    const auto nearest = hn::Set(floats, near_plane), middle = hn::Set(floats, person.depth);
-    const auto scale = hn::Set(floats, 32767.0f / person.reach), most = hn::Set(floats, 32767.0f);
-    std::fill(limits, limits + row.first, nowhere);
-    for (int x = row.first; x < row.last; x += static_cast<int>(hn::Lanes(floats))) {
-        const auto behind = hn::Div(nearest, hn::LoadU(floats, depth + x));
-        const auto limit = hn::Mul(hn::Sub(behind, middle), scale);
-        const auto clamped = hn::Max(hn::Min(limit, most), hn::Neg(most));
-        hn::StoreU(hn::DemoteTo(out, hn::ConvertTo(ints, clamped)), out, limits + x);
-    }
-    std::fill(limits + row.last, limits + row.last + group_cells, nowhere);
-}
-
-Vector all(int value) {
-    return hn::Set(cells, static_cast<std::int16_t>(value));
-}
-
-// One of the four 16-bit lanes of each pixel, in all four.
-template <int lane>
-Vector spread(Vector v) {
-    constexpr std::uint8_t a = 2 * lane, b = a + 1, c = 8 + a, d = c + 1;
-    alignas(16) static constexpr std::uint8_t from[16] = {a, b, a, b, a, b, a, b, c, d, c, d, c, d, c, d};
-    const hn::Repartition<std::uint8_t, Cells> bytes;
-    return hn::TableLookupBytes(v, hn::BitCast(cells, hn::LoadDup128(bytes, from)));
-}
-
-// Four numbers, each in all lanes of its pixel; from the given pixel of the group on.
-Vector spread_four(const std::int16_t* numbers, int pixel) {
-    alignas(64) static constexpr std::uint8_t from[32] = {0, 1, 0, 1, 0, 1, 0, 1, 2, 3, 2, 3, 2, 3, 2, 3,
-                                                          4, 5, 4, 5, 4, 5, 4, 5, 6, 7, 6, 7, 6, 7, 6, 7};
-    const hn::Repartition<std::uint8_t, Cells> bytes;
-    return hn::TableLookupBytes(hn::LoadDup128(cells, numbers), hn::BitCast(cells, hn::LoadU(bytes, from + 8 * pixel)));
-}
-
-// 1 / coverage where that is over 1, 32767 = 1; over 2 it counts as 2. Newton's step for 1 / x, twice, from the
-// straight line that is least off over [1, 2], 24/17 - 8/17 x.
-Vector thinning(Vector share) {
-    const auto x = hn::Min(hn::Max(share, all(cell_full)), all(2 * cell_full - 1));
-    auto y = hn::Sub(all(30840), hn::MulFixedPoint15(all(15420), hn::ShiftLeft<2>(hn::Sub(x, all(cell_full)))));
-    for (int i = 0; i < 2; ++i) {
-        const auto off = hn::ShiftLeft<2>(hn::Sub(all(cell_full), hn::MulFixedPoint15(x, y)));
-        y = hn::SaturatedAdd(y, hn::MulFixedPoint15(y, off));
-    }
-    return y;
-}
+constexpr int step = static_cast<int>(hn::MaxLanes(floats));
+constexpr hn::FixedTag<std::int16_t, 8> two_cells;
 
 Floats part(hn::Vec<decltype(shorts)> fixed) {
     return hn::ConvertTo(floats, hn::PromoteTo(ints, fixed));
 }
 
-// Whether anything of a group of pixels can still be seen through.
-bool is_open(const Cover* group) {
-    constexpr int step = static_cast<int>(hn::MaxLanes(cells)) / 4;
-    alignas(64) static constexpr std::int16_t light[16] = {-1, -1, -1, 0, -1, -1, -1, 0, -1, -1, -1, 0, -1, -1, -1, 0};
-    // Light counts as full, and what is more than full as much more.
-    const auto not_share =
-        hn::ShiftRight<1>(hn::BitCast(hn::Repartition<std::uint16_t, Cells>(), hn::Load(cells, light)));
-    for (int i = 0; i < group_cells; i += step) {
-        const auto there = hn::LoadU(cells, reinterpret_cast<const std::int16_t*>(group + i));
-        const auto share = hn::Or(there, hn::BitCast(cells, not_share));
-        if (!hn::AllFalse(cells, hn::Lt(share, all(pixel_full - closed)))) return true;
-    }
-    return false;
-}
-
-using Cell = hn::FixedTag<std::int16_t, 8>;
-
-hn::Vec<Cell> between(const std::int16_t* a, const std::int16_t* b, std::int16_t share) {
-    const Cell cell;
-    const auto from = hn::Load(cell, a);
-    return hn::Add(from, hn::MulFixedPoint15(hn::Sub(hn::Load(cell, b), from), hn::Set(cell, share)));
-}
-
 }  // namespace
 
-// Which groups of pixels can still be seen through, a bit each. The last one's pixels beyond `count` count too.
-std::uint64_t OpenGroups(const Cover* cover, int count) {
-    std::uint64_t open = 0;
-    for (int x = 0; x < count; x += group_cells) open |= std::uint64_t{is_open(cover + x)} << (x / group_cells);
-    return open;
-}
-
-// Makes cells that are covered more than once cover themselves once. `count`: of whole groups.
-void ThinCells(std::int16_t* from, int count) {
-    const hn::FixedTag<std::int16_t, 8> lanes;
-    for (std::int16_t* cell = from; cell < from + 8 * count; cell += 8) {
-        if (cell[3] <= cell_full) continue;
-        alignas(64) std::int16_t spread[most_lanes];
-        hn::Store(thinning(all(cell[3])), cells, spread);
-        hn::Store(hn::MulFixedPoint15(hn::Load(lanes, cell), hn::Set(lanes, spread[0])), lanes, cell);
+// Pixels out of cells, first down and then across; those that are nearer than the mean of what covers them are left
+// open. `line` and `nearness_line` have room for all cells.
+void StretchRow(const CellRows& rows, const CellColumns& columns, const float* nearness, int first, int end,
+                Cover* line, float* nearness_line, Cover* to) {
+    const auto lanes_of = [](const Cover* cover) { return reinterpret_cast<const std::int16_t*>(cover); };
+    const auto between = [](auto a, auto b, auto share)
+                             HWY_ATTR { return hn::Add(a, hn::MulFixedPoint15(hn::Sub(b, a), share)); };
+    const auto mean = [](Floats a, Floats b, Floats share)
+                          HWY_ATTR { return hn::Add(a, hn::Mul(hn::Sub(b, a), share)); };
+    const auto down = hn::Set(two_cells, static_cast<std::int16_t>(rows.share * 32767.0f));
+    for (int i = 0; i < rows.cells; i += 2)
+        hn::StoreU(between(hn::LoadU(two_cells, lanes_of(rows.above + i)),
+                           hn::LoadU(two_cells, lanes_of(rows.below + i)), down),
+                   two_cells, reinterpret_cast<std::int16_t*>(line + i));
+    for (int i = 0; i < rows.cells; i += step)
+        hn::StoreU(mean(hn::LoadU(floats, rows.nearness_above + i), hn::LoadU(floats, rows.nearness_below + i),
+                        hn::Set(floats, rows.share)),
+                   floats, nearness_line + i);
+    for (int x = first; x < end; x += 2) {
+        const hn::Repartition<std::uint64_t, decltype(two_cells)> words;
+        const auto load = [&](int pixel) HWY_ATTR {
+            return hn::BitCast(words, hn::LoadU(two_cells, lanes_of(line + columns.cell[pixel])));
+        };
+        const auto one = load(x), other = load(x + 1);
+        hn::StoreU(between(hn::BitCast(two_cells, hn::InterleaveLower(words, one, other)),
+                           hn::BitCast(two_cells, hn::InterleaveUpper(words, one, other)),
+                           hn::LoadU(two_cells, &columns.lanes[std::size_t{4} * x])),
+                   two_cells, reinterpret_cast<std::int16_t*>(to + x));
     }
-}
-
-// A row of pixels out of a patch of larger cells, first down and then across; `line` is all 0 before and after. Returns
-// which groups of pixels may not be all 0, and are open in `cover`; the others aren't written.
-std::uint64_t StretchRow(const Patch& patch, Along row, std::span<const Along> columns, const Cover* cover,
-                         std::int16_t* line, std::int16_t* pixels) {
-    const Cell cell;
-    const std::uint64_t used = patch.used[row.cell] | patch.used[row.cell + 1];
-    const std::int16_t* above = patch.cells + std::ptrdiff_t{8} * patch.stride * row.cell;
-    const std::int16_t* below = above + std::ptrdiff_t{8} * patch.stride;
-    const auto for_each_used = [&](auto visit) HWY_ATTR {
-        for (std::uint64_t left = used; left != 0; left &= left - 1)
-            for (int i = 0; i < 8 * group_cells; i += 8) visit(8 * group_cells * std::countr_zero(left) + i);
-    };
-    for_each_used([&](int at) HWY_ATTR { hn::Store(between(above + at, below + at, row.share), cell, line + at); });
-    const int count = static_cast<int>(columns.size());
-    std::uint64_t filled = 0;
-    for (int first = 0; first < count; first += group_cells) {
-        const int end = std::min(first + group_cells, count);
-        const int low = columns[first].cell / group_cells, high = (columns[end - 1].cell + 1) / group_cells;
-        if ((used >> low & ((std::uint64_t{2} << (high - low)) - 1)) == 0 || !is_open(cover + first)) continue;
-        filled |= std::uint64_t{1} << (first / group_cells);
-        for (int i = first; i < end; ++i) {
-            const std::int16_t* from = line + 8 * columns[i].cell;
-            hn::Store(between(from, from + 8, columns[i].share), cell, pixels + 8 * i);
-        }
-        for (int i = end; i < first + group_cells; ++i) hn::Store(hn::Zero(cell), cell, pixels + 8 * i);
-    }
-    for_each_used([&](int at) HWY_ATTR { hn::Store(hn::Zero(cell), cell, line + at); });
-    return filled;
-}
-
-// Lays the used cells, and leaves them all 0.
-void LayRow(const SplatPerson& person, const CoverRow& row) {
-    alignas(64) std::int16_t limits[largest_patch_side + 2 * most_lanes];
-    find_limits(person, row, row.hidden_behind, limits);
-    alignas(64) std::int16_t begins[largest_patch_side + 2 * most_lanes];
-    if (row.shown_behind) find_limits(person, row, row.shown_behind, begins);
-    constexpr int step = static_cast<int>(hn::MaxLanes(cells)) / 4;
-    const auto depth = all(person.depth_code), thickness = all(person.thickness);
-    const hn::Repartition<std::uint64_t, Cells> words;
-    for (std::uint64_t left = row.used; left != 0; left &= left - 1) {
-        const int group = group_cells * std::countr_zero(left);
-        for (int i = 0; i < group_cells; i += step) {
-            std::int16_t* cell = row.cells + 8 * (group + i);
-            const auto a = hn::BitCast(words, hn::Load(cells, cell));
-            const auto b = hn::BitCast(words, hn::Load(cells, cell + 4 * step));
-            hn::Store(hn::Zero(cells), cells, cell);
-            hn::Store(hn::Zero(cells), cells, cell + 4 * step);
-            const auto light = hn::BitCast(cells, hn::ConcatEven(words, b, a));
-            const auto back = spread<0>(hn::BitCast(cells, hn::ConcatOdd(words, b, a)));
-            const auto share = spread<3>(light);
-            const auto once = hn::Min(hn::MulFixedPoint15(light, thinning(share)), all(cell_full));
-            const auto unit = hn::ShiftLeft<2>(hn::Sub(once, hn::ShiftRight<13>(once)));  // 8192 -> 32764
-
-            auto* to = reinterpret_cast<std::int16_t*>(row.cover + group + i);
-            auto* flock = reinterpret_cast<std::int16_t*>(row.flock + group + i);
-            const auto there = hn::LoadU(cells, to), others = hn::LoadU(cells, flock);
-            const auto open = hn::Max(hn::Sub(all(pixel_full), spread<3>(there)), hn::Zero(cells));
-            const auto apart = hn::Sub(depth, spread<1>(others));
-            const auto beside = hn::And(hn::Gt(apart, all(-1)), hn::Lt(apart, thickness));
-            const auto before = hn::IfThenElse(beside, spread<0>(others), open);
-            auto shown = hn::And(hn::Lt(back, hn::MulFixedPoint15(share, spread_four(limits + group, i))),
-                                 hn::Gt(open, all(closed)));
-            if (row.shown_behind)
-                shown = hn::AndNot(hn::Lt(back, hn::MulFixedPoint15(share, spread_four(begins + group, i))), shown);
-            hn::StoreU(hn::SaturatedAdd(there, hn::IfThenElseZero(shown, hn::MulFixedPoint15(unit, before))), cells,
-                       to);
-            const auto joined = hn::IfThenElse(beside, spread<1>(others), depth);
-            hn::StoreU(
-                hn::IfThenElse(hn::And(shown, hn::Gt(share, hn::Zero(cells))), hn::OddEven(joined, before), others),
-                cells, flock);
-        }
+    for (int x = first; x < end; x += step) {
+        hn::Vec<decltype(shorts)> light[3], share;
+        hn::LoadInterleaved4(shorts, &to[x].red, light[0], light[1], light[2], share);
+        const auto cell = hn::LoadU(ints, &columns.cell[x]);
+        const auto near = mean(hn::GatherIndex(floats, nearness_line, cell),
+                               hn::GatherIndex(floats, nearness_line + 1, cell), hn::LoadU(floats, &columns.share[x]));
+        const auto hidden = hn::Lt(near, hn::Mul(hn::LoadU(floats, nearness + x), part(share)));
+        if (hn::AllFalse(floats, hidden)) continue;
+        const auto show = [&](auto lane) HWY_ATTR {
+            return hn::DemoteTo(shorts, hn::IfThenZeroElse(hn::RebindMask(ints, hidden), hn::PromoteTo(ints, lane)));
+        };
+        hn::StoreInterleaved4(show(light[0]), show(light[1]), show(light[2]), show(share), shorts, &to[x].red);
     }
 }
 
@@ -242,7 +103,7 @@ void ResolveRow(const Cover* cover, const std::uint32_t* behind, std::uint32_t* 
             hn::StoreU(back, words, to + x);
             continue;
         }
-        constexpr float unit = pixel_full, steps = 255.0f;
+        constexpr float unit = cover_full, steps = 255.0f;
         // Of a pixel that is covered more than once everybody gives way alike.
         const auto covered = hn::Max(part(share), hn::Set(floats, unit));
         const auto open = hn::Div(hn::Sub(covered, part(share)), covered);
@@ -268,129 +129,152 @@ HWY_AFTER_NAMESPACE();
 
 namespace render::native {
 
-HWY_EXPORT(LayRow);
-HWY_EXPORT(OpenGroups);
-HWY_EXPORT(ThinCells);
 HWY_EXPORT(StretchRow);
 HWY_EXPORT(ResolveRow);
 
-CoverTile::CoverTile()
-    : cover_(std::size_t{stride} * (tile_side + 2 * margin_rows)),
-      flocks_(cover_.size()),
-      line_(std::size_t{8} * (largest_patch_side + group_cells)),
-      stretched_(std::size_t{8} * stride),
-      limits_(stride) {}
+namespace {
 
-void CoverTile::begin(const Tile& tile, const BackdropPicture& behind) {
-    tile_ = tile;
-    behind_ = &behind;
-    std::memset(cover_.data(), 0, cover_.size() * sizeof(Cover));
-    std::fill(flocks_.begin(), flocks_.end(), Flock{});
-}
-
-Rect CoverTile::open_part(const Rect& pixels) const {
-    Rect part{std::max(pixels.x0, tile_.x0), std::max(pixels.y0, tile_.y0), std::min(pixels.x1, tile_.x1),
-              std::min(pixels.y1, tile_.y1)};
-    if (part.empty()) return {};
-    const int width = part.x1 - part.x0;
-    const auto open_groups = [&](int y) {
-        return HWY_DYNAMIC_DISPATCH(OpenGroups)(&cover_[index_of(part.x0, y)], width);
+// Lays light and coverage of which `one` = 1 behind what is there.
+void lay_behind(const std::uint16_t* rgba, int one_bits, Cover& there) {
+    const int open = cover_full - std::min(there.share, cover_full), half = 1 << (one_bits - 1);
+    const auto more = [&](std::uint16_t& lane, int value) {
+        lane = static_cast<std::uint16_t>(lane + ((value * open + half) >> one_bits));
     };
-    std::uint64_t groups = 0;
-    while (part.y0 < part.y1 && (groups = open_groups(part.y0)) == 0) ++part.y0;
-    while (part.y0 < part.y1 && open_groups(part.y1 - 1) == 0) --part.y1;
-    if (part.empty()) return {};
-    // Every group is known to be open or not once one of its rows is.
-    const int last = (width - 1) / group_cells;
-    for (int y = part.y0 + 1; y < part.y1 && ((groups & 1) == 0 || (groups >> last & 1) == 0); ++y)
-        groups |= open_groups(y);
-    part.x1 = std::min(part.x1, part.x0 + group_cells * static_cast<int>(std::bit_width(groups)));
-    part.x0 += group_cells * std::countr_zero(groups);
-    return part;
+    more(there.red, rgba[0]), more(there.green, rgba[1]), more(there.blue, rgba[2]), more(there.share, rgba[3]);
 }
 
-void CoverTile::lay(const NearLayer& near) {
-    const Rect& touched = near.touched();
-    for (int y = touched.y0; y < touched.y1; ++y) {
-        const std::uint16_t* from = near.rgba(y) + 4 * (touched.x0 - tile_.x0);
-        auto* to = &cover_[index_of(touched.x0, y)].red;
-        for (int i = 0; i < touched.x1 - touched.x0; ++i, from += 4, to += 4) {
-            const int open = pixel_full - std::min(to[3], pixel_full);
-            for (int lane = 0; lane < 4; ++lane)
-                to[lane] = static_cast<std::uint16_t>(to[lane] + ((from[lane] * open + (1 << 14)) >> 15));
+}  // namespace
+
+CoverTile::CoverTile()
+    : kept_(std::size_t{tile_side} * tile_side),
+      row_(tile_side),
+      line_(CellPlane<Cover>::stride),
+      nearness_line_(CellPlane<float>::stride),
+      with_near_(tile_side) {}
+
+void CoverTile::begin(const Tile& tile, const BackdropPicture& behind, float cell, const NearLayer* near) {
+    grid_ = CellGrid(tile, cell);
+    behind_ = &behind;
+    near_ = near;
+    is_near_laid_ = false;
+    cells_.begin(grid_.cells, grid_.is_coarse());
+    limits_.find(grid_, behind, near);
+    if (grid_.is_coarse()) find_columns();
+}
+
+void CoverTile::find_columns() {
+    for (int x = 0; x < tile_side; ++x) {
+        const float at = grid_.at(std::min(grid_.tile.x0 + x, grid_.tile.x1 - 1)), cell = std::floor(at);
+        columns_.cell[x] = static_cast<int>(cell) - grid_.cells.x0;
+        columns_.share[x] = at - cell;
+        std::fill_n(&columns_.lanes[std::size_t{4} * x], 4, static_cast<std::int16_t>((at - cell) * 32767.0f));
+    }
+}
+
+void CoverTile::lay(const SplatPerson& person, const Patch& patch, Layers layers) {
+    cells_.lay(person, patch,
+               {layers == Layers::before_near ? &limits_.before_near() : &limits_.backdrop(),
+                layers == Layers::behind_near ? &limits_.behind_near() : nullptr});
+}
+
+void CoverTile::lay_near() {
+    if (grid_.is_coarse()) return lay_near_on_pixels();
+    for (int y = near_->touched().y0; y < near_->touched().y1; ++y) lay_near_row(y, cells_.cover(y - grid_.cells.y0));
+}
+
+// `to`: from the tile's first column on.
+void CoverTile::lay_near_row(int y, Cover* to) const {
+    const Rect& touched = near_->touched();
+    for (int x = touched.x0 - grid_.tile.x0; x < touched.x1 - grid_.tile.x0; ++x)
+        lay_behind(near_->rgba(y) + 4 * x, 15, to[x]);
+}
+
+// A row of pixels out of the cells, where they are nearer than what a row of nearness says.
+void CoverTile::stretch_row(int y, const float* nearness) {
+    std::fill(row_.begin(), row_.end(), Cover{});
+    const Rect& touched = cells_.touched();
+    const float at = grid_.at(y), cell = std::floor(at);
+    const int above = static_cast<int>(cell);
+    if (above + 1 < touched.y0 || above >= touched.y1) return;
+    const int row = above - grid_.cells.y0;
+    const CellRows rows{cells_.cover(row),        cells_.cover(row + 1),           cells_.nearness(row),
+                        cells_.nearness(row + 1), grid_.cells.x1 - grid_.cells.x0, at - cell};
+    const auto column = [&](int pixel) { return std::clamp(pixel - grid_.tile.x0, 0, tile_side); };
+    const int first = column(grid_.pixels_of(touched.x0).first), end = column(grid_.pixels_of(touched.x1 - 1).end);
+    constexpr int whole = 16;  // no vector is longer
+    HWY_DYNAMIC_DISPATCH(StretchRow)
+    (rows, columns_, nearness, first / whole * whole, end, line_.data(), nearness_line_.data(), row_.data());
+}
+
+// The nearness of what hides people before the near layer, from the tile's first column on.
+const float* CoverTile::with_near(int y) {
+    const Tile& tile = grid_.tile;
+    std::copy_n(behind_->depth.row(y) + tile.x0, tile_side, with_near_.begin());
+    const Rect& touched = near_->touched();
+    for (int x = touched.x0 - tile.x0; x < touched.x1 - tile.x0; ++x)
+        with_near_[x] = std::max(with_near_[x], near_->depth(y)[x]);
+    return with_near_.data();
+}
+
+void CoverTile::lay_near_on_pixels() {
+    const Tile& tile = grid_.tile;
+    const Rect& touched = near_->touched();
+    for (int y = tile.y0; y < tile.y1; ++y) {
+        Cover* to = kept_row(y);
+        const float* backdrop = behind_->depth.row(y) + tile.x0;
+        const bool is_touched = y >= touched.y0 && y < touched.y1;
+        stretch_row(y, is_touched ? with_near(y) : backdrop);
+        std::copy(row_.begin(), row_.end(), to);
+        if (!is_touched) continue;
+        std::bitset<tile_side> before;
+        for (int x = 0; x < tile_side; ++x) before[x] = to[x].share > 0;
+        lay_near_row(y, to);
+        // Cells that are before the layer elsewhere, and behind it here.
+        stretch_row(y, backdrop);
+        for (int x = 0; x < tile_side; ++x)
+            if (!before[x]) lay_behind(&row_[x].red, 14, to[x]);
+    }
+    is_near_laid_ = true;
+    cells_.begin(grid_.cells, true);
+    close_full_cells();
+}
+
+// Those of which no pixel that takes from them is open.
+void CoverTile::close_full_cells() {
+    const Tile& tile = grid_.tile;
+    const auto within = [](Span span, int first, int end) {
+        return Span{std::max(span.first, first), std::min(span.end, end)};
+    };
+    for (int row = grid_.cells.y0; row < grid_.cells.y1; ++row) {
+        const Span ys = within(grid_.pixels_of(row), tile.y0, tile.y1);
+        std::bitset<tile_side> open;
+        for (int y = ys.first; y < ys.end; ++y)
+            for (int x = 0; x < tile.x1 - tile.x0; ++x)
+                if (kept_row(y)[x].share <= cover_full - closed) open.set(x);
+        for (int column = grid_.cells.x0; column < grid_.cells.x1; ++column) {
+            const Span xs = within(grid_.pixels_of(column), tile.x0, tile.x1);
+            bool is_open = false;
+            for (int x = xs.first; x < xs.end && !is_open; ++x) is_open = open[x - tile.x0];
+            if (!is_open) cells_.close(column - grid_.cells.x0, row - grid_.cells.y0);
         }
     }
 }
 
-// Depths of the near layer's pixels from the tile's first on, in a row of its own: what it covers, or its and the
-// backdrop's.
-const float* CoverTile::find_limits(const NearLayer& near, int y, bool with_backdrop) {
-    const Rect& touched = near.touched();
-    if (with_backdrop)
-        std::copy_n(behind_->depth.row(y) + tile_.x0, tile_side, limits_.begin());
-    else
-        std::fill(limits_.begin(), limits_.end(), 0.0f);
-    if (y < touched.y0 || y >= touched.y1) return limits_.data();
-    const float* depth = near.depth(y);
-    for (int x = touched.x0 - tile_.x0; x < touched.x1 - tile_.x0; ++x) limits_[x] = std::max(limits_[x], depth[x]);
-    return limits_.data();
-}
-
-void CoverTile::lay_row(const SplatPerson& person, std::int16_t* cells, std::uint64_t used, Tile part,
-                        const NearLayer* near, Layers layers) {
-    const int y = part.y0, row = std::clamp(y, tile_.y0, tile_.y1 - 1);
-    const bool is_within = row == y;
-    CoverRow out{cells,
-                 used,
-                 &cover_[index_of(part.x0, y)],
-                 &flocks_[index_of(part.x0, y)],
-                 is_within ? std::max(tile_.x0 - part.x0, 0) : 0,
-                 is_within ? std::min(tile_.x1, part.x1) - part.x0 : 0,
-                 behind_->depth.row(row) + part.x0,
-                 nullptr};
-    if (layers != Layers::all) {
-        const float* limits = find_limits(*near, row, layers == Layers::before_near) + part.x0 - tile_.x0;
-        (layers == Layers::before_near ? out.hidden_behind : out.shown_behind) = limits;
-    }
-    HWY_DYNAMIC_DISPATCH(LayRow)(person, out);
-}
-
-void CoverTile::lay(const SplatPerson& person, const Patch& patch, const NearLayer* near, Layers layers) {
-    if (person.cell > 1.0f) return lay_stretched(person, patch, near, layers);
-    for (int y = 0; y < patch.height; ++y) {
-        const std::uint64_t used = std::exchange(patch.used[y], 0);
-        if (used == 0) continue;
-        lay_row(person, patch.cells + std::ptrdiff_t{8} * patch.stride * y, used,
-                {patch.x0, patch.y0 + y, patch.x0 + patch.width, patch.y0 + y + 1}, near, layers);
-    }
-}
-
-void CoverTile::lay_stretched(const SplatPerson& person, const Patch& patch, const NearLayer* near, Layers layers) {
-    for_each_used_group(patch, [](std::int16_t* cell) { HWY_DYNAMIC_DISPATCH(ThinCells)(cell, group_cells); });
-    const auto along = [&](int pixel, int first, int size) {
-        const float place = (static_cast<float>(pixel) + 0.5f) / person.cell - 0.5f - static_cast<float>(first);
-        const float clamped = std::clamp(place, 0.0f, static_cast<float>(size - 1) - 0.001f);
-        const auto whole = static_cast<std::int16_t>(clamped);
-        return Along{whole, static_cast<std::int16_t>((clamped - static_cast<float>(whole)) * 32767.0f)};
-    };
-    const Rect pixels = person.bounds();
-    const int x0 = std::max(pixels.x0, tile_.x0), x1 = std::min(pixels.x1, tile_.x1);
-    std::array<Along, tile_side> columns;
-    for (int x = x0; x < x1; ++x) columns[x - x0] = along(x, patch.x0, patch.width);
-    for (int y = std::max(pixels.y0, tile_.y0); x0 < x1 && y < std::min(pixels.y1, tile_.y1); ++y) {
-        const std::uint64_t used = HWY_DYNAMIC_DISPATCH(StretchRow)(
-            patch, along(y, patch.y0, patch.height), std::span(columns).first(static_cast<std::size_t>(x1 - x0)),
-            &cover_[index_of(x0, y)], line_.data(), stretched_.data());
-        if (used != 0) lay_row(person, stretched_.data(), used, {x0, y, x1, y + 1}, near, layers);
-    }
-    clear(patch);
+// From the tile's first column on.
+const Cover* CoverTile::pixel_row(int y) {
+    if (!grid_.is_coarse()) return cells_.cover(y - grid_.cells.y0);
+    stretch_row(y, behind_->depth.row(y) + grid_.tile.x0);
+    if (!is_near_laid_) return row_.data();
+    Cover* kept = kept_row(y);
+    for (int x = 0; x < tile_side; ++x) lay_behind(&row_[x].red, 14, kept[x]);
+    return kept;
 }
 
 void CoverTile::resolve(Plane<std::uint32_t>& out) {
-    const auto resolve_row = HWY_DYNAMIC_DISPATCH(ResolveRow);
-    for (int y = tile_.y0; y < tile_.y1; ++y)
-        resolve_row(&cover_[index_of(tile_.x0, y)], behind_->color.row(y) + tile_.x0, out.row(y) + tile_.x0,
-                    tile_.x1 - tile_.x0);
+    const Tile& tile = grid_.tile;
+    for (int y = tile.y0; y < tile.y1; ++y)
+        HWY_DYNAMIC_DISPATCH(ResolveRow)
+        (pixel_row(y), behind_->color.row(y) + tile.x0, out.row(y) + tile.x0, tile.x1 - tile.x0);
 }
 
 }  // namespace render::native

@@ -1,26 +1,17 @@
 // What people leave of a tile's pixels: light and coverage, laid down front to back.
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <vector>
 
+#include "render/native/cell_grid.h"
+#include "render/native/cell_limits.h"
+#include "render/native/cover_cells.h"
 #include "render/native/near_layer.h"
 #include "render/native/picture.h"
 #include "render/native/splat.h"
 
 namespace render::native {
-
-// Linear red, green, blue of what covers a pixel, and how much of it is covered: pixel_full = all.
-struct Cover {
-    std::uint16_t red, green, blue, share;
-};
-
-// People beside one another, who so share a pixel instead of hiding one another: how much of it was open before them,
-// and the depth of the first of them (SplatPerson::depth_code).
-struct Flock {
-    std::uint16_t open = pixel_full, depth = 0;
-    std::uint16_t padding[2] = {};
-};
 
 // Which part of a person is laid where there is a near layer.
 enum class Layers {
@@ -29,46 +20,55 @@ enum class Layers {
     behind_near,  // what is
 };
 
+// Where a tile's columns of pixels are among its columns of cells: from one to the next, which gets a share.
+struct CellColumns {
+    alignas(64) std::array<std::int32_t, tile_side> cell;
+    alignas(64) std::array<float, tile_side> share;
+    alignas(64) std::array<std::int16_t, 4 * tile_side> lanes;  // that share, for each lane of a Cover: 32767 = 1
+};
+
 // One a thread: everything of a tile that isn't in the picture yet.
 class CoverTile {
 public:
     CoverTile();
 
-    // Forgets. `behind` is read until resolve().
-    void begin(const Tile& tile, const BackdropPicture& behind);
-    const Tile& tile() const { return tile_; }
+    // Forgets. `cell` >= 1 [px]: the side of every patch's cells. `near`: a layer of people to be laid in between, or
+    // null. Both it and `behind` are read until resolve().
+    void begin(const Tile& tile, const BackdropPicture& behind, float cell, const NearLayer* near);
 
-    // The part of the tile's pixels within these that holds all on which something can still be seen; empty: none.
-    Rect open_part(const Rect& pixels) const;
+    // The part of these cells that holds all on which something can still be seen; empty: none.
+    Rect open_part(const Rect& cells) const { return cells_.open_part(cells); }
 
-    // Lays a patch behind what is there, where it is nearer than the backdrop, and leaves it all 0. `near`: the tile's,
-    // needed if it isn't all that is laid.
-    void lay(const SplatPerson& person, const Patch& patch, const NearLayer* near, Layers layers);
-    // Lays a resolved layer of the tile behind what is there.
-    void lay(const NearLayer& near);
+    // Lays a patch behind what is there, where it is nearer than the backdrop, and leaves it all 0.
+    void lay(const SplatPerson& person, const Patch& patch, Layers layers);
+    // Lays the near layer behind what is there, once.
+    void lay_near();
 
     // Puts the tile into the picture: the backdrop shows through where nobody covers it.
     void resolve(Plane<std::uint32_t>& out);
 
 private:
-    // What is laid beyond the tile: rows above and below, groups of cells left and right.
-    static constexpr int margin_rows = 3;
-    static constexpr int stride = tile_side + 3 * group_cells;
-    std::size_t index_of(int x, int y) const {
-        return static_cast<std::size_t>(y - tile_.y0 + margin_rows) * stride + (x - tile_.x0 + group_cells);
-    }
-    void lay_row(const SplatPerson& person, std::int16_t* cells, std::uint64_t used, Tile part, const NearLayer* near,
-                 Layers layers);
-    void lay_stretched(const SplatPerson& person, const Patch& patch, const NearLayer* near, Layers layers);
-    const float* find_limits(const NearLayer& near, int y, bool with_backdrop);
+    void find_columns();
+    void stretch_row(int y, const float* nearness);
+    const float* with_near(int y);
+    void lay_near_row(int y, Cover* to) const;
+    void lay_near_on_pixels();
+    void close_full_cells();
+    const Cover* pixel_row(int y);
+    Cover* kept_row(int y) { return &kept_[static_cast<std::size_t>(tile_side) * (y - grid_.tile.y0)]; }
 
-    Tile tile_;
+    CellGrid grid_;
     const BackdropPicture* behind_ = nullptr;
-    std::vector<Cover> cover_;
-    std::vector<Flock> flocks_;
-    Array<std::int16_t> line_;       // a row of cells, all 0 between two rows
-    Array<std::int16_t> stretched_;  // a row of pixels of a stretched patch
-    std::vector<float> limits_;      // a row of depths
+    const NearLayer* near_ = nullptr;
+    CoverCells cells_;
+    CellLimits limits_;
+    CellColumns columns_;
+    // Of coarse cells:
+    Array<Cover> kept_;  // pixels, down to the near layer, once that is laid
+    Array<Cover> row_;   // of pixels
+    Array<Cover> line_;  // of cells
+    Array<float> nearness_line_, with_near_;
+    bool is_near_laid_ = false;
 };
 
 }  // namespace render::native

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/native/cell_grid.h"
+
 namespace render::native {
 
 namespace {
@@ -98,7 +100,6 @@ void take_points(const Sight& sight, SplatPerson& out) {
 
 // Perspective to the first order in the axes; the kernel does the rest with `nearness`.
 void place(const Sight& sight, SplatPerson& out) {
-    out.cell = sight.cell;
     out.depth = sight.depth;
     out.reach = sight.reach;
     out.nearness = fixed(sight.reach / sight.depth);
@@ -203,13 +204,13 @@ PointPeople::PointPeople(std::span<const figures::Figure> figures, const scene::
 void PointPeople::prepare(const View& view, double splat_size, std::span<const Person* const> people) {
     for (const Person* person : people)
         if (!kinds_[person->character]) make_kind(person->character);
-    const float cell = std::max(1.0f, static_cast<float>(splat_size));
+    cell_ = std::max(1.0f, static_cast<float>(splat_size));
     people_.resize(people.size());
     bounds_.resize(people.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, people.size(), 256), [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            people_[i] = ready(view, *people[i], cell);
-            bounds_[i] = people_[i].bounds();
+            people_[i] = ready(view, *people[i], cell_);
+            bounds_[i] = bounds_of(people_[i]);
         }
     });
 }
@@ -218,10 +219,11 @@ float PointPeople::reach_of(const Person& person) const {
     return person.instance.scale * glm::length(figures_[person.character].poses->box.size());
 }
 
-Rect SplatPerson::bounds() const {
-    const auto first = [this](std::int16_t at) { return static_cast<int>(std::floor(static_cast<float>(at) * cell)); };
-    const auto end = [this](std::int16_t at) { return static_cast<int>(std::ceil(static_cast<float>(at) * cell)); };
-    return {first(x0), first(y0), end(x1), end(y1)};
+Rect PointPeople::bounds_of(const SplatPerson& person) const {
+    const Rect cells = person.cells();
+    if (cell_ == 1.0f || cells.empty()) return cells;
+    return {pixels_of(cells.x0, cell_).first, pixels_of(cells.y0, cell_).first, pixels_of(cells.x1 - 1, cell_).end,
+            pixels_of(cells.y1 - 1, cell_).end};
 }
 
 void SplatPerson::prefetch() const {

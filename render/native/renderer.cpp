@@ -122,16 +122,17 @@ void Renderer::fill_lists() {
 
 void Renderer::draw_tile(std::size_t index) {
     const Tile tile = grid_.tile(index);
-    Easel& easel = easels_.local();
-    easel.cover.begin(tile, behind_);
     std::span<const std::uint32_t> others = point_lists_.of(index);
-    if (const float far_end = draw_near(index, easel); far_end > 0) {
+    Easel& easel = easels_.local();
+    const float far_end = draw_near(index, easel);  // 0: nobody is near
+    easel.cover.begin(tile, behind_, points_.cell(), far_end > 0 ? &easel.near : nullptr);
+    if (far_end > 0) {
         // Who may be in front of somebody near comes before them and, for what is behind, once more after them.
         std::size_t mixed = 0;
         while (mixed < others.size() && points_.people()[others[mixed]].nearest() < far_end) ++mixed;
         for (const std::uint32_t i : others.first(mixed))
             draw_point_person(points_.people()[i], easel, Layers::before_near);
-        easel.cover.lay(easel.near);
+        easel.cover.lay_near();
         for (const std::uint32_t i : others.first(mixed))
             draw_point_person(points_.people()[i], easel, Layers::behind_near);
         others = others.subspan(mixed);
@@ -159,20 +160,15 @@ float Renderer::draw_near(std::size_t tile, Easel& easel) const {
 }
 
 void Renderer::draw_point_person(const SplatPerson& person, Easel& easel, Layers layers) const {
-    const Rect open = easel.cover.open_part(person.bounds());
+    const Rect open = easel.cover.open_part(person.cells());
     if (open.empty()) return;
-    // A pixel takes from the cells around its middle, and those from points up to a cell before them.
-    const auto cell_at = [&](int pixel) {
-        return static_cast<int>(std::floor(static_cast<float>(pixel) / person.cell));
-    };
-    const int x0 = std::max<int>(person.x0, cell_at(open.x0) - 2);
-    const int y0 = std::max<int>(person.y0, cell_at(open.y0) - 2);
-    const int width = std::min<int>(person.x1, cell_at(open.x1 - 1) + 3) - x0;
-    const int height = std::min<int>(person.y1, cell_at(open.y1 - 1) + 3) - y0;
+    // A cell gets from points up to a cell before it, and those share it with the one after it.
+    const int x0 = std::max<int>(person.x0, open.x0 - 1), y0 = std::max<int>(person.y0, open.y0 - 1);
+    const int width = std::min<int>(person.x1, open.x1 + 1) - x0, height = std::min<int>(person.y1, open.y1 + 1) - y0;
     if (width < 2 || height < 2) return;
     const Patch patch = easel.room.patch(x0, y0, width, height);
     splat(person, points_.light(), patch);
-    easel.cover.lay(person, patch, layers == Layers::all ? nullptr : &easel.near, layers);
+    easel.cover.lay(person, patch, layers);
 }
 
 Image Renderer::read_image() const {

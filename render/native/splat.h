@@ -18,9 +18,8 @@
 namespace render::native {
 
 // Fixed-point units.
-inline constexpr int cell_bits = 7;                 // positions: 128 steps a cell
-inline constexpr std::int16_t cell_full = 8192;     // a cell that is covered once; up to 4 times fit
-inline constexpr std::uint16_t pixel_full = 16384;  // a pixel that is covered once; up to twice fits
+inline constexpr int cell_bits = 7;              // positions: 128 steps a cell
+inline constexpr std::int16_t cell_full = 8192;  // a cell that is covered once; up to 4 times fit
 
 // Sums over so few points depend on which they are: they are made to cover what the silhouette does, one by one.
 inline constexpr int longest_summed_prefix = 512;
@@ -57,9 +56,8 @@ struct SplatPerson {
     // The depth again, and how deep a body is: who is no farther apart than this can't be in front of one another.
     std::int16_t depth_code, thickness;
     std::int16_t x0, y0, x1, y1;  // [cells] what they may touch
-    float cell;                   // [px] side of a cell
 
-    Rect bounds() const;                             // [px] of the picture, anywhere
+    Rect cells() const { return {x0, y0, x1, y1}; }
     float nearest() const { return depth - reach; }  // [m] view depth
     void prefetch() const;                           // the first points: they will be drawn soon
 };
