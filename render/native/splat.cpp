@@ -44,12 +44,11 @@ void load_directions(const std::int8_t* from, Vector* direction) {
 
 // How much of each point is seen from the eye, were it to face it.
 HWY_INLINE Vector seen(const SplatPerson& person, int chunk, int lane) {
-    Vector sum = hn::Zero(lanes);
-    for (int i = 0; i < 4; ++i) {
+    const auto from = [&](int i) HWY_ATTR {
         const auto* bits = reinterpret_cast<const std::uint8_t*>(person.visible[i] + chunk) + lane / 8;
-        sum = hn::Add(sum, hn::IfThenElseZero(hn::LoadMaskBits(lanes, bits), all(person.visible_share[i])));
-    }
-    return sum;
+        return hn::IfThenElseZero(hn::LoadMaskBits(lanes, bits), all(person.visible_share[i]));
+    };
+    return hn::Add(hn::Add(from(0), from(1)), hn::Add(from(2), from(3)));
 }
 
 // What each point shows of its area; a quarter of it, as facets and shares go up to 2.
@@ -273,7 +272,8 @@ void add(const Staged& staged, const Patch& patch, int i) {
 
 }  // namespace
 
-void Splat(const SplatPerson& person, const SplatLight& light, const Patch& patch) {
+void Splat(const SplatPerson& person, const SplatLight& light, const Patch& to) {
+    const Patch patch = to;  // of its own: what is stored could change it otherwise, for all that is known
     Parts parts;
     const Area area = area_of(person, light, parts);
     if (area.steps == 0) return;
