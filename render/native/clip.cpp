@@ -14,14 +14,40 @@ struct Polygon {
     std::array<PlacedCorner, 3 + 5> corners;
     std::size_t count = 0;
 
-    void add(const PlacedCorner& corner) { corners[count++] = corner; }
+    // Rounding may dent a polygon that is thinner than it, and so give it more corners than there is room for.
+    void add(const PlacedCorner& corner) {
+        if (count < corners.size()) corners[count++] = corner;
+    }
 };
 
-PlacedCorner between(const PlacedCorner& a, const PlacedCorner& b, double share) {
-    const auto weight = static_cast<float>(share);
+constexpr int depth_axis = 2;
+
+// The near plane, or one beside the view's middle.
+struct Plane {
+    int axis;
+    double side;  // of the middle: -1 or 1
+
+    static constexpr double reach = wide_reach / 2;  // the picture's middle lies within the other half
+
+    // >= 0 on the inner side.
+    double distance(const glm::dvec3& p) const {
+        return axis == depth_axis ? p.z - static_cast<double>(near_plane) : reach * p.z - side * p[axis];
+    }
+    // However far away the ends were that it lies between.
+    void put_on(glm::dvec3& p) const {
+        p[axis] = axis == depth_axis ? static_cast<double>(near_plane) : side * reach * p.z;
+    }
+};
+
+// Where the plane cuts an edge: the same place for both triangles at it, whichever way they go around.
+PlacedCorner cut(const Plane& plane, const PlacedCorner& a, double a_distance, const PlacedCorner& b,
+                 double b_distance) {
+    const double all = a_distance - b_distance, of_a = -b_distance / all, of_b = a_distance / all;
+    const auto weight = static_cast<float>(of_b);
     const auto mixed = [&](float from, float to) { return from + (to - from) * weight; };
     PlacedCorner c;
-    c.position = a.position + (b.position - a.position) * share;
+    c.position = a.position * of_a + b.position * of_b;
+    plane.put_on(c.position);
     for (int i = 0; i < 3; ++i) {
         c.look.light[i] = mixed(a.look.light[i], b.look.light[i]);
         c.look.albedo[i] = mixed(a.look.albedo[i], b.look.albedo[i]);
@@ -31,35 +57,25 @@ PlacedCorner between(const PlacedCorner& a, const PlacedCorner& b, double share)
     return c;
 }
 
-// Always from the inner end to the outer one, so that both triangles at an edge cut it at the same place.
-PlacedCorner cut(const PlacedCorner& inner, double inner_distance, const PlacedCorner& outer, double outer_distance) {
-    return between(inner, outer, inner_distance / (inner_distance - outer_distance));
-}
-
-// Keeps where `distance` of a position is >= 0.
-template <typename Distance>
-Polygon kept(const Polygon& from, Distance distance) {
+Polygon kept(const Polygon& from, const Plane& plane) {
     Polygon out;
     for (std::size_t i = 0; i < from.count; ++i) {
         const PlacedCorner& here = from.corners[i];
         const PlacedCorner& next = from.corners[(i + 1) % from.count];
-        const double d = distance(here.position), next_d = distance(next.position);
+        const double d = plane.distance(here.position), next_d = plane.distance(next.position);
         if (d >= 0) out.add(here);
-        if (d >= 0 && next_d < 0) out.add(cut(here, d, next, next_d));
-        if (d < 0 && next_d >= 0) out.add(cut(next, next_d, here, d));
+        if (d >= 0 && next_d < 0) out.add(cut(plane, here, d, next, next_d));
+        if (d < 0 && next_d >= 0) out.add(cut(plane, next, next_d, here, d));
     }
     return out;
 }
 
 Polygon clipped(const std::array<PlacedCorner, 3>& triangle) {
-    constexpr double reach = wide_reach / 2;  // the picture's middle lies within the other half
     Polygon polygon;
     for (const PlacedCorner& corner : triangle) polygon.add(corner);
-    polygon = kept(polygon, [](const glm::dvec3& p) { return p.z - static_cast<double>(near_plane); });
-    polygon = kept(polygon, [](const glm::dvec3& p) { return reach * p.z - p.x; });
-    polygon = kept(polygon, [](const glm::dvec3& p) { return reach * p.z + p.x; });
-    polygon = kept(polygon, [](const glm::dvec3& p) { return reach * p.z - p.y; });
-    return kept(polygon, [](const glm::dvec3& p) { return reach * p.z + p.y; });
+    constexpr Plane planes[] = {{depth_axis, 1}, {0, 1}, {0, -1}, {1, 1}, {1, -1}};
+    for (const Plane& plane : planes) polygon = kept(polygon, plane);
+    return polygon;
 }
 
 std::int64_t twice_area(const WideTriangle& t) {

@@ -731,11 +731,16 @@ WideEdge edge_between(const WideTriangle& t, int from, int to) {
     return {along, down, -(along * t.x[from] + down * t.y[from]), along > 0 || (along == 0 && down > 0)};
 }
 
+// What an edge gains within a block, at most.
+constexpr std::int64_t most_gained = 2 * std::int64_t{sample_block_side} * grid_per_sample * 2 * wide_reach;
+constexpr std::int64_t edge_limit = 1 << 30;
+// [grid steps squared] No edge of such a triangle is cut off by the limit in a block that has samples of it.
+constexpr std::int64_t most_small_area = edge_limit - most_gained;
+
 // 32 bits are enough for a sign: within a block an edge changes by less than this limit.
 std::int32_t clamped(std::int64_t edge) {
-    constexpr std::int64_t limit = 1 << 30;
-    static_assert(2 * std::int64_t{sample_block_side} * grid_per_sample * 2 * wide_reach <= limit);
-    return static_cast<std::int32_t>(std::clamp(edge, -limit, limit));
+    static_assert(most_gained <= edge_limit);
+    return static_cast<std::int32_t>(std::clamp(edge, -edge_limit, edge_limit));
 }
 
 Blocks blocks_of(const WideTriangle& t, const NearLayer& layer) {
@@ -753,7 +758,11 @@ void fill_wide(const TextureLayers& textures, const WideTriangle& t, NearLayer& 
     const Blocks blocks = blocks_of(t, layer);
     if (blocks.first_column >= blocks.end_column || blocks.first_row >= blocks.end_row) return;
     const WideEdge edges[3] = {edge_between(t, 1, 2), edge_between(t, 2, 0), edge_between(t, 0, 1)};
-    const double over_area = 1.0 / static_cast<double>(edges[0].at(t.x[0], t.y[0]));
+    const std::int64_t area = edges[0].at(t.x[0], t.y[0]);
+    const double over_area = 1.0 / static_cast<double>(area);
+    // At samples inside, edges are whole below. However thin the triangle, its shares follow from them exactly; those
+    // of a larger one change so little within a block that floats hold the steps.
+    const bool is_small = area < most_small_area;
     const auto a_sample = [&](std::int64_t slope) {
         return static_cast<float>(static_cast<double>(grid_per_sample * slope) * over_area);
     };
@@ -769,22 +778,27 @@ void fill_wide(const TextureLayers& textures, const WideTriangle& t, NearLayer& 
             };
             for (int lane = 0; lane < block_samples; lane += lanes) {
                 const auto across = hn::Load(i, offsets.x + lane), below = hn::Load(i, offsets.y + lane);
-                auto outside = hn::Zero(i);
-                for (const WideEdge& edge : edges) {
+                const auto at_samples = [&](const WideEdge& edge) {
                     const auto start = hn::Set(i, clamped(edge.at(x, y) - (edge.owns ? 0 : 1)));
                     const auto along = hn::Set(i, static_cast<std::int32_t>(grid_per_sample * edge.along));
                     const auto down = hn::Set(i, static_cast<std::int32_t>(grid_per_sample * edge.down));
-                    outside = hn::Or(outside, hn::Add(start, hn::Add(hn::Mul(along, across), hn::Mul(down, below))));
-                }
+                    return hn::Add(start, hn::Add(hn::Mul(along, across), hn::Mul(down, below)));
+                };
+                const auto edge1 = at_samples(edges[1]), edge2 = at_samples(edges[2]);
+                const auto outside = hn::Or(hn::Or(at_samples(edges[0]), edge1), edge2);
                 FloatMask mask = hn::RebindMask(f, hn::Gt(outside, hn::Set(i, -1)));
                 if (hn::AllFalse(f, mask)) continue;
                 const auto x_in = hn::ConvertTo(f, across), y_in = hn::ConvertTo(f, below);
-                const auto moved = [&](const WideEdge& edge, float slope_x, float slope_y) {
+                const auto share_at = [&](const WideEdge& edge, VInt whole, float slope_x, float slope_y) {
+                    if (is_small) {
+                        const auto exact = hn::ConvertTo(f, hn::Add(whole, hn::Set(i, edge.owns ? 0 : 1)));
+                        return hn::Mul(exact, hn::Set(f, static_cast<float>(over_area)));
+                    }
                     return hn::Add(hn::Add(share(edge), hn::Mul(x_in, hn::Set(f, slope_x))),
                                    hn::Mul(y_in, hn::Set(f, slope_y)));
                 };
-                const auto second = moved(edges[1], slopes.second_x, slopes.second_y);
-                const auto third = moved(edges[2], slopes.third_x, slopes.third_y);
+                const auto second = share_at(edges[1], edge1, slopes.second_x, slopes.second_y);
+                const auto third = share_at(edges[2], edge2, slopes.third_x, slopes.third_y);
                 const auto depth =
                     between(shades.at.depth, shades.to_second.depth, shades.to_third.depth, second, third);
                 const Block block = layer.block(column - layer.blocks().x0, row - layer.blocks().y0);

@@ -148,6 +148,11 @@ constexpr std::size_t most_corners = 8;  // three, and one more a plane
 struct Polygon {
     std::array<ClipCorner, most_corners> corners;
     std::size_t count = 0;
+
+    // Rounding may dent a polygon that is thinner than it, and so give it more corners than there is room for.
+    void add(const ClipCorner& corner) {
+        if (count < most_corners) corners[count++] = corner;
+    }
 };
 
 // Whoever was projected is inside, however the last bit falls.
@@ -164,13 +169,13 @@ Polygon cut(const Polygon& polygon, glm::dvec3 normal, double offset) {
         const ClipCorner& a = polygon.corners[i];
         const ClipCorner& b = polygon.corners[(i + 1) % polygon.count];
         const double from_a = distance(a, normal, offset), from_b = distance(b, normal, offset);
-        if (from_a >= 0) out.corners[out.count++] = a;
+        if (from_a >= 0) out.add(a);
         if ((from_a >= 0) == (from_b >= 0)) continue;
         const bool a_is_inside = from_a >= 0;
         const ClipCorner& inner = a_is_inside ? a : b;
         const ClipCorner& outer = a_is_inside ? b : a;
         const double in = a_is_inside ? from_a : from_b, beyond = a_is_inside ? from_b : from_a;
-        out.corners[out.count++] = {inner.at + (outer.at - inner.at) * (in / (in - beyond)), false, {}};
+        out.add({inner.at + (outer.at - inner.at) * (in / (in - beyond)), false, {}});
     }
     return out;
 }
@@ -205,9 +210,9 @@ void add_clipped(const View& view, const Corners& corners, const ScreenCorners& 
         const glm::vec3 relative = glm::vec3(corners.x[i], corners.y[i], corners.z[i]) - glm::vec3(view.position);
         const glm::dvec4 clip = glm::dmat4(view.clip_from_camera_relative) * glm::dvec4(glm::dvec3(relative), 1.0);
         if (!std::isfinite(clip.x) || !std::isfinite(clip.y) || !std::isfinite(clip.w)) return;
-        polygon.corners[polygon.count++] = {glm::dvec3(clip.x, clip.y, clip.w),
-                                            (screen.sides[i] & clipped) == 0,
-                                            {screen.x[i], screen.y[i], screen.depth[i]}};
+        polygon.add({glm::dvec3(clip.x, clip.y, clip.w),
+                     (screen.sides[i] & clipped) == 0,
+                     {screen.x[i], screen.y[i], screen.depth[i]}});
     }
     const ClipPlanes clip(view);
     for (const glm::dvec4& plane : clip.planes) polygon = cut(polygon, glm::dvec3(plane), plane.w);
