@@ -88,7 +88,8 @@ void take_points(const Sight& sight, SplatPerson& out) {
     out.facets = model.facets(pose);
     out.count = static_cast<int>(sight.person.count);
     out.last_share = fixed(sight.person.last_share);
-    out.two_sided = out.count <= longest_two_sided_prefix;
+    out.hides_itself = out.count > longest_two_sided_prefix;
+    out.two_sided = !out.hides_itself || model.double_sided();
     const SplatModel::Blend shares = model.shares(sight.samples);
     out.shares = {shares.near, shares.far};
     out.to_far = fixed(shares.to_far);

@@ -59,8 +59,8 @@ HWY_INLINE Vector shown(const SplatPerson& person, int chunk, int lane) {
     const Vector near = hn::Load(lanes, person.shares[0] + chunk * chunk_points + lane);
     const Vector far = hn::Load(lanes, person.shares[1] + chunk * chunk_points + lane);
     const Vector share = hn::Add(near, times(hn::Sub(far, near), all(person.to_far)));
-    Vector part =
-        person.two_sided ? hn::Abs(facing) : times(hn::Max(facing, hn::Zero(lanes)), seen(person, chunk, lane));
+    Vector part = person.two_sided ? hn::Abs(facing) : hn::Max(facing, hn::Zero(lanes));
+    if (person.hides_itself) part = times(part, seen(person, chunk, lane));
     part = times(part, share);
     const Vector index = hn::Iota(lanes, static_cast<std::int16_t>(chunk * chunk_points + lane));
     const Vector last = all(static_cast<std::int16_t>(person.count - 1));

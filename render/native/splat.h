@@ -37,7 +37,8 @@ struct SplatPerson {
     const std::int16_t* colors;
     const std::uint16_t* slots;       // of long prefixes
     const std::int16_t* slot_shares;  // of short ones, else null
-    bool two_sided;
+    bool two_sided;                   // points that face away show their other side
+    bool hides_itself;                // only what is seen of each point shows
     // Screen x, y [1/128 cell] and the way back from the middle [of `reach`], of a position of 32768, by axis.
     std::array<std::array<std::int16_t, 3>, 3> axes;
     std::array<std::int32_t, 2> middle;  // on the screen [1/128 cell]

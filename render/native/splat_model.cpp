@@ -216,10 +216,12 @@ void SplatModel::find_lights(std::size_t look, glm::vec3 direction, std::uint32_
         };
         const glm::vec3 piece = three(facets(pose), facet_unit);
         float facing = glm::dot(piece, direction);
-        if (double_sided_) facing = std::abs(facing);
+        const bool is_other_side = double_sided_ && facing < 0.0f;
+        if (is_other_side) facing = -facing;
         if (facing <= 0.0f) continue;
         const float weight = own[i] * facing;
-        const glm::vec3 normal = three(normals(pose), 127.0f), color = weight * three(colors(), 32767.0f);
+        const glm::vec3 color = weight * three(colors(), 32767.0f);
+        const glm::vec3 normal = (is_other_side ? -1.0f : 1.0f) * three(normals(pose), 127.0f);
         const glm::vec3 around = glm::mix(light_.from_below, light_.from_above, 0.5f + 0.5f * normal.y);
         const int slot = (slots_[i] & 0xff) / 2;
         for (int azimuth = 0; azimuth < sun_azimuths; ++azimuth)

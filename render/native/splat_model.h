@@ -78,6 +78,7 @@ public:
     SlotLights lights(std::uint32_t pose, const Between& between, glm::vec3 to_sun) const;
 
     float area() const { return area_; }  // [model units^2] that the points stand for together
+    bool double_sided() const { return double_sided_; }
 
 private:
     void pack_poses(const figures::Figure& figure);
