@@ -80,12 +80,12 @@ void turn_to_eye(const SplatPerson& person, int chunk, int lane, Vector* normal)
     for (int axis = 0; axis < 3; ++axis) normal[axis] = hn::IfThenElse(away, hn::Neg(normal[axis]), normal[axis]);
 }
 
-// What is found of a chunk before it is added to the patch. One more at the end: they are read eight bytes at a time.
+// What is found of a chunk before it is added to the patch. All but the last is at multiples of 64 bytes.
 struct alignas(64) Staged {
     std::uint64_t light_and_area[chunk_points];
-    std::int16_t back[chunk_points + 4];                   // way back times area
     std::int16_t column[chunk_points], row[chunk_points];  // of the first of its four cells
     std::int16_t right[chunk_points], down[chunk_points];  // how far it is from that one's middle, 32768 = a cell
+    std::int16_t back[chunk_points + 4];                   // way back times area; read eight bytes at a time
     std::uint32_t used;                                    // a bit a point
 };
 
