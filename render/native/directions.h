@@ -20,6 +20,14 @@ glm::vec2 on_diamond(float angle);
 // Unit, from the body towards the node.
 glm::vec3 direction_of(int node);
 
+constexpr int opposite_of(int node) {
+    return (rings - 1 - node / ring_nodes) * ring_nodes + (node % ring_nodes + ring_nodes / 2) % ring_nodes;
+}
+// Whether several nodes coincide there.
+constexpr bool is_pole(int node) {
+    return node / ring_nodes % (rings - 1) == 0;
+}
+
 // The four nodes around a direction, and their shares, which sum to 1.
 struct Between {
     std::array<int, 4> node;

@@ -33,8 +33,6 @@ constexpr std::uint32_t first_rung = 1;  // two points
 constexpr float facet_unit = 64.0f;
 constexpr float share_unit = 16384.0f;
 
-// The sun goes around a body in so many steps; its height is the place's.
-constexpr int sun_azimuths = 8;
 constexpr int light_values = sun_azimuths * (1 + model::slot_count) * 3;
 constexpr float light_unit = 16384.0f;
 constexpr int lit_points = 512;  // as many tell what light a body sends
@@ -43,6 +41,12 @@ glm::vec3 sun_at(int azimuth, glm::vec3 to_sun) {
     const float out = std::sqrt(std::max(0.0f, 1.0f - to_sun.y * to_sun.y));
     const glm::vec2 around = out * glm::normalize(on_diamond(4.0f * static_cast<float>(azimuth) / sun_azimuths));
     return {around.x, to_sun.y, around.y};
+}
+
+// All nodes of a pole are one; this one is looked from.
+int seen_of_pole(int node) {
+    constexpr int above = (rings - 1) * ring_nodes;
+    return node < above ? opposite_of(above) : above;
 }
 
 // So many triangles and points are looked at, over all directions and key poses.
@@ -183,56 +187,82 @@ void SplatModel::look_around(const figures::Figure& figure) {
             static_cast<float>(shares_[std::size_t{chunk_points} * chunks_ * (rungs_.size() - 1) + i]) / share_unit;
     tbb::parallel_for(std::size_t{0}, key_poses_.size(), [&](std::size_t key) {
         SelfOcclusion body(figure, static_cast<int>(key_poses_[key]), own);
-        for (int node = 0; node < direction_nodes; ++node) {
-            const std::size_t look = key * direction_nodes + node;
-            const bool is_pole = node / ring_nodes % (rings - 1) == 0;
-            if (is_pole && node % ring_nodes > 0) {  // all of its nodes are one
-                std::copy_n(&visible_[(look - 1) * chunks_], chunks_, &visible_[look * chunks_]);
-                silhouettes_[look] = silhouettes_[look - 1];
-                summed_[look] = summed_[look - 1];
-                std::copy_n(&lights_[(look - 1) * light_values], light_values, &lights_[look * light_values]);
-                continue;
+        const std::vector<LitPoint> lit = light_points(key_poses_[key]);
+        const std::size_t first = key * direction_nodes;
+        // From above and all around; the opposite directions are the others.
+        for (int node = (rings / 2) * ring_nodes; node < direction_nodes; ++node) {
+            if (node / ring_nodes == rings / 2 && opposite_of(node) < node) continue;
+            if (is_pole(node) && node % ring_nodes > 0) continue;
+            const glm::vec3 direction = direction_of(node);
+            const std::array<SelfOcclusion::Seen, 2> seen = body.look_both_ways(direction);
+            for (int way = 0; way < 2; ++way) {
+                const std::size_t look = first + (way == 0 ? node : opposite_of(node));
+                std::ranges::copy(seen[way].visible, &visible_[look * chunks_]);
+                silhouettes_[look] = seen[way].silhouette;
+                summed_[look] = area_each * seen[way].facing;
+                find_lights(look, way == 0 ? direction : -direction, lit, seen[way].shown);
             }
-            const SelfOcclusion::Seen seen =
-                body.look_from(direction_of(node), {&visible_[look * chunks_], static_cast<std::size_t>(chunks_)});
-            silhouettes_[look] = seen.silhouette;
-            summed_[look] = area_each * seen.facing;
-            find_lights(look, direction_of(node), key_poses_[key], own);
         }
+        for (int node = 0; node < direction_nodes; ++node)
+            if (is_pole(node)) copy_look(first + seen_of_pole(node), first + node);
     });
     find_bends();
 }
 
-void SplatModel::find_lights(std::size_t look, glm::vec3 direction, std::uint32_t pose, std::span<const float> own) {
-    std::array<glm::vec3, sun_azimuths*(1 + model::slot_count)> sums{};
+void SplatModel::copy_look(std::size_t from, std::size_t to) {
+    if (from == to) return;
+    std::copy_n(&visible_[from * chunks_], chunks_, &visible_[to * chunks_]);
+    silhouettes_[to] = silhouettes_[from];
+    summed_[to] = summed_[from];
+    std::copy_n(&lights_[from * light_values], light_values, &lights_[to * light_values]);
+}
+
+std::vector<SplatModel::LitPoint> SplatModel::light_points(std::uint32_t pose) const {
     std::array<glm::vec3, sun_azimuths> suns;
     for (int azimuth = 0; azimuth < sun_azimuths; ++azimuth) suns[azimuth] = sun_at(azimuth, light_.to_sun);
-    float weights = 0;
-    for (int i = 0; i < std::min(points_, lit_points); ++i) {
-        if ((visible_[look * chunks_ + i / chunk_points] >> (i % chunk_points) & 1) == 0) continue;
-        const std::size_t at = std::size_t{3} * chunk_points * (i / chunk_points) + i % chunk_points;
+    std::vector<LitPoint> lit(static_cast<std::size_t>(std::min(points_, lit_points)));
+    for (std::size_t i = 0; i < lit.size(); ++i) {
+        const std::size_t at = 3 * chunk_points * (i / chunk_points) + i % chunk_points;
         const auto three = [&](const auto* from, float unit) {
             return glm::vec3(from[at], from[at + chunk_points], from[at + 2 * chunk_points]) / unit;
         };
-        const glm::vec3 piece = three(facets(pose), facet_unit);
-        float facing = glm::dot(piece, direction);
-        const bool is_other_side = double_sided_ && facing < 0.0f;
-        if (is_other_side) facing = -facing;
-        if (facing <= 0.0f) continue;
-        const float weight = own[i] * facing;
-        const glm::vec3 color = weight * three(colors(), 32767.0f);
-        const glm::vec3 normal = (is_other_side ? -1.0f : 1.0f) * three(normals(pose), 127.0f);
-        const glm::vec3 around = glm::mix(light_.from_below, light_.from_above, 0.5f + 0.5f * normal.y);
-        const int slot = (slots_[i] & 0xff) / 2;
-        for (int azimuth = 0; azimuth < sun_azimuths; ++azimuth)
-            sums[azimuth * (1 + model::slot_count) + slot] +=
-                color * (around + light_.sun * std::max(0.0f, glm::dot(normal, suns[azimuth])));
+        const glm::vec3 normal = three(normals(pose), 127.0f), color = three(colors(), 32767.0f);
+        lit[i].slot = (slots_[i] & 0xff) / 2;
+        lit[i].facet = three(facets(pose), facet_unit);
+        for (int side = 0; side < 2; ++side) {
+            const glm::vec3 outward = side == 0 ? normal : -normal;
+            const glm::vec3 around = glm::mix(light_.from_below, light_.from_above, 0.5f + 0.5f * outward.y);
+            for (int azimuth = 0; azimuth < sun_azimuths; ++azimuth) {
+                const glm::vec3 light =
+                    color * (around + light_.sun * std::max(0.0f, glm::dot(outward, suns[azimuth])));
+                for (int channel = 0; channel < 3; ++channel)
+                    lit[i].light[side][3 * azimuth + channel] = light[channel];
+            }
+        }
+    }
+    return lit;
+}
+
+void SplatModel::find_lights(std::size_t look, glm::vec3 direction, std::span<const LitPoint> lit,
+                             std::span<const float> shown) {
+    std::array<std::array<float, 3 * sun_azimuths>, 1 + model::slot_count> sums{};
+    float weights = 0;
+    for (std::size_t i = 0; i < lit.size(); ++i) {
+        const float weight = shown[i];
+        if (!(weight > 0.0f)) continue;
+        std::array<float, 3 * sun_azimuths>& sum = sums[lit[i].slot];
+        const int side = double_sided_ && glm::dot(lit[i].facet, direction) < 0.0f ? 1 : 0;
+        const std::array<float, 3 * sun_azimuths>& light = lit[i].light[side];
+        for (std::size_t value = 0; value < sum.size(); ++value) sum[value] += weight * light[value];
         weights += weight;
     }
     if (!(weights > 0.0f)) return;
-    for (int i = 0; i < light_values; ++i)
-        lights_[look * light_values + i] =
-            static_cast<std::uint16_t>(std::min(light_unit * sums[i / 3][i % 3] / weights, 65535.0f));
+    std::uint16_t* light = &lights_[look * light_values];
+    for (int azimuth = 0; azimuth < sun_azimuths; ++azimuth)
+        for (const auto& sum : sums)
+            for (int channel = 0; channel < 3; ++channel)
+                *light++ =
+                    static_cast<std::uint16_t>(std::min(light_unit * sum[3 * azimuth + channel] / weights, 65535.0f));
 }
 
 SplatModel::SlotLights SplatModel::lights(std::uint32_t pose, const Between& between, glm::vec3 to_sun) const {

@@ -20,6 +20,8 @@ inline constexpr int chunk_points = 32;
 inline constexpr int longest_mean_prefix = chunk_points;
 // Of a handful of points none may happen to face the eye: each stands for both sides of the body.
 inline constexpr int longest_two_sided_prefix = 16;
+// The sun goes around a body in so many steps; its height is the place's.
+inline constexpr int sun_azimuths = 8;
 
 class SplatModel {
 public:
@@ -86,7 +88,17 @@ private:
     void pack_shares(const figures::Figure& figure);
     void choose_keys(const figures::Figure& figure);
     void look_around(const figures::Figure& figure);
-    void find_lights(std::size_t look, glm::vec3 direction, std::uint32_t pose, std::span<const float> own);
+    void copy_look(std::size_t from, std::size_t to);
+    // What a point sends from either side, for each azimuth of the sun and channel, were it of slot colour white.
+    struct LitPoint {
+        int slot;
+        glm::vec3 facet;
+        std::array<std::array<float, 3 * sun_azimuths>, 2> light;
+    };
+    std::vector<LitPoint> light_points(std::uint32_t pose) const;
+    // `shown`: what is seen of each point from there.
+    void find_lights(std::size_t look, glm::vec3 direction, std::span<const LitPoint> lit,
+                     std::span<const float> shown);
     void find_bends();
 
     int points_ = 0, chunks_ = 0;
