@@ -1,28 +1,38 @@
 // The pieces of surface that a character's points stand for.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "figures/figure.h"
 
 namespace render::native {
 
-// Perpendicular to the surface at a point in a pose, outward; as long as the surface there is larger than in the mesh's
-// own pose. Of a triangle without area: the point's normal.
-glm::vec3 facet(const figures::Figure& figure, int pose, int point);
-
-// How much surface each of a model's points stands for when they are drawn alone, by number of points: means are 1.
-class Shares {
+// Perpendicular to the surface at each point in a pose, outward; as long as the surface there is larger than in the
+// mesh's own pose. Of a triangle without area: the point's normal.
+class Facets {
 public:
-    explicit Shares(const pointsample::PointModel& model);
+    // The figure must outlive it.
+    explicit Facets(const figures::Figure& figure);
 
-    // Of the first `count` points, in [1, model.size()]; each goes to the nearest, as all the points' own surface.
-    std::vector<float> of_first(std::size_t count) const;
+    std::vector<glm::vec3> in_pose(int pose) const;  // a point each
 
 private:
-    const pointsample::PointModel& model_;
-    std::vector<float> own_;  // when all are drawn
+    struct Triangle {
+        std::array<std::uint32_t, 3> corners;
+        float rest;  // twice its area in the mesh's own pose
+    };
+    const figures::Figure& figure_;
+    std::vector<Triangle> triangles_;         // those with points on them
+    std::vector<std::uint32_t> triangle_of_;  // a point's, among them
 };
+
+// How much surface each of a model's points stands for when only the first `counts[i]` are drawn: means are 1. Each of
+// the others goes to the nearest that is drawn, as all the points' own surface. Counts rise, from 1 or more to at most
+// model.size().
+std::vector<std::vector<float>> shares_of_prefixes(const pointsample::PointModel& model, std::span<const int> counts);
 
 }  // namespace render::native

@@ -13,8 +13,6 @@
 #include <limits>
 #include <numeric>
 
-#include "render/native/facets.h"
-
 #ifndef GRANDSTAND_SELF_OCCLUSION
 #define GRANDSTAND_SELF_OCCLUSION
 
@@ -326,7 +324,8 @@ void fit(Screen& screen, glm::vec3 low, glm::vec3 high) {
 
 }  // namespace
 
-SelfOcclusion::SelfOcclusion(const figures::Figure& figure, int pose, std::span<const float> shares)
+SelfOcclusion::SelfOcclusion(const figures::Figure& figure, int pose, std::span<const glm::vec3> facets,
+                             std::span<const float> shares)
     : points_(static_cast<int>(shares.size())), double_sided_(figure.mesh->double_sided()) {
     const motion::PoseTable& poses = *figure.poses;
     for (int i = 0; i < poses.vertex_count; ++i)
@@ -335,7 +334,7 @@ SelfOcclusion::SelfOcclusion(const figures::Figure& figure, int pose, std::span<
     for (int i = 0; i < points_; ++i) {
         const motion::PosedVertex& point = poses.points[static_cast<std::size_t>(pose) * poses.point_count + i];
         append(positions_, motion::unpack_position(point, poses.box));
-        append(facets_, shares[i] * facet(figure, pose, i));
+        append(facets_, shares[i] * facets[i]);
     }
     fill_up(vertices_);
     fill_up(positions_);

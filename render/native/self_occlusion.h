@@ -16,8 +16,9 @@ namespace render::native {
 
 class SelfOcclusion {
 public:
-    // Of a pose; a share of the surface for each point (facets.h).
-    SelfOcclusion(const figures::Figure& figure, int pose, std::span<const float> shares);
+    // Of a pose; a facet and a share of the surface for each point (facets.h).
+    SelfOcclusion(const figures::Figure& figure, int pose, std::span<const glm::vec3> facets,
+                  std::span<const float> shares);
 
     struct Seen {
         float silhouette = 0;  // [model units^2] area

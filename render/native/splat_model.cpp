@@ -37,6 +37,34 @@ constexpr int light_values = sun_azimuths * (1 + model::slot_count) * 3;
 constexpr float light_unit = 16384.0f;
 constexpr int lit_points = 512;  // as many tell what light a body sends
 
+// As std::lround, but in line.
+int nearest(float value) {
+    const int whole = static_cast<int>(value);
+    const float rest = value - static_cast<float>(whole);
+    return whole + (rest >= 0.5f ? 1 : 0) - (rest <= -0.5f ? 1 : 0);
+}
+
+// Poses hold normals of two bytes: there are only so many.
+using PackedNormal = std::array<std::int8_t, 3>;
+
+std::size_t code_of(const motion::PosedVertex& vertex) {
+    return static_cast<std::size_t>(static_cast<std::uint8_t>(vertex.normal_u)) << 8 |
+           static_cast<std::uint8_t>(vertex.normal_v);
+}
+
+std::vector<PackedNormal> packed_normals() {
+    std::vector<PackedNormal> normals(std::size_t{1} << 16);
+    for (int u = -128; u < 128; ++u) {
+        for (int v = -128; v < 128; ++v) {
+            const motion::PosedVertex vertex{0, 0, 0, static_cast<std::int8_t>(u), static_cast<std::int8_t>(v)};
+            const glm::vec3 normal = 127.0f * motion::unpack_normal(vertex);
+            for (int axis = 0; axis < 3; ++axis)
+                normals[code_of(vertex)][axis] = static_cast<std::int8_t>(nearest(normal[axis]));
+        }
+    }
+    return normals;
+}
+
 glm::vec3 sun_at(int azimuth, glm::vec3 to_sun) {
     const float out = std::sqrt(std::max(0.0f, 1.0f - to_sun.y * to_sun.y));
     const glm::vec2 around = out * glm::normalize(on_diamond(4.0f * static_cast<float>(azimuth) / sun_azimuths));
@@ -75,22 +103,25 @@ void SplatModel::pack_poses(const figures::Figure& figure) {
     normals_.resize(pose_size * poses.pose_count);
     facets_.resize(pose_size * poses.pose_count);
     extents_.resize(static_cast<std::size_t>(poses.pose_count));
+    const Facets facets(figure);
+    const std::vector<PackedNormal> normal_of = packed_normals();
     tbb::parallel_for(0, poses.pose_count, [&](int pose) {
+        const std::vector<glm::vec3> pieces = facets.in_pose(pose);
         Extent extent;
         extent.min.fill(32767);
         extent.max.fill(-32768);
         for (int i = 0; i < chunks_ * chunk_points; ++i) {
             const int point = std::min(i, points_ - 1);  // the last chunk is filled up
             const motion::PosedVertex& posed = poses.points[static_cast<std::size_t>(pose) * poses.point_count + point];
-            const glm::vec3 normal = motion::unpack_normal(posed), piece = facet(figure, pose, point);
+            const PackedNormal normal = normal_of[code_of(posed)];
             const std::array<std::uint16_t, 3> packed{posed.x, posed.y, posed.z};
             const std::size_t at = pose_size * pose + (i / chunk_points) * 3 * chunk_points + i % chunk_points;
             for (int axis = 0; axis < 3; ++axis) {
                 const auto position = static_cast<std::int16_t>(packed[axis] - 32768);
                 positions_[at + axis * chunk_points] = position;
-                normals_[at + axis * chunk_points] = static_cast<std::int8_t>(std::lround(127.0f * normal[axis]));
+                normals_[at + axis * chunk_points] = normal[axis];
                 facets_[at + axis * chunk_points] =
-                    static_cast<std::int8_t>(std::lround(std::clamp(facet_unit * piece[axis], -127.0f, 127.0f)));
+                    static_cast<std::int8_t>(nearest(std::clamp(facet_unit * pieces[point][axis], -127.0f, 127.0f)));
                 extent.min[axis] = std::min(extent.min[axis], position);
                 extent.max[axis] = std::max(extent.max[axis], position);
             }
@@ -131,18 +162,16 @@ void SplatModel::pack_looks(const figures::Figure& figure) {
 }
 
 void SplatModel::pack_shares(const figures::Figure& figure) {
-    const Shares shares(*figure.points);
     for (std::uint32_t rung = first_rung; static_cast<int>(pointsample::points_of_rung(rung)) < points_; ++rung)
         rungs_.push_back(static_cast<int>(pointsample::points_of_rung(rung)));
     rungs_.push_back(points_);
     const std::size_t row = std::size_t{chunk_points} * chunks_;
     shares_.assign(row * rungs_.size(), 0);
-    tbb::parallel_for(std::size_t{0}, rungs_.size(), [&](std::size_t rung) {
-        const std::vector<float> of_rung = shares.of_first(static_cast<std::size_t>(rungs_[rung]));
-        for (std::size_t i = 0; i < of_rung.size(); ++i)
-            shares_[row * rung + i] =
-                static_cast<std::int16_t>(std::lround(std::min(of_rung[i] * share_unit, 32767.0f)));
-    });
+    const std::vector<std::vector<float>> shares = shares_of_prefixes(*figure.points, rungs_);
+    for (std::size_t rung = 0; rung < rungs_.size(); ++rung)
+        std::ranges::transform(shares[rung], &shares_[row * rung], [](float share) {
+            return static_cast<std::int16_t>(std::lround(std::min(share * share_unit, 32767.0f)));
+        });
     for (std::size_t rung = 0; rung + 1 < rungs_.size(); ++rung)
         for (int i = rungs_[rung]; i < rungs_[rung + 1]; ++i) shares_[row * rung + i] = shares_[row * (rung + 1) + i];
 }
@@ -180,13 +209,15 @@ void SplatModel::look_around(const figures::Figure& figure) {
     lights_.assign(looks * light_values, 0);
     silhouettes_.resize(looks);
     summed_.resize(looks);
+    const Facets facets(figure);
     const float area_each = area_ / static_cast<float>(points_);
     std::vector<float> own(static_cast<std::size_t>(points_));
     for (int i = 0; i < points_; ++i)
         own[i] =
             static_cast<float>(shares_[std::size_t{chunk_points} * chunks_ * (rungs_.size() - 1) + i]) / share_unit;
     tbb::parallel_for(std::size_t{0}, key_poses_.size(), [&](std::size_t key) {
-        SelfOcclusion body(figure, static_cast<int>(key_poses_[key]), own);
+        const int pose = static_cast<int>(key_poses_[key]);
+        SelfOcclusion body(figure, pose, facets.in_pose(pose), own);
         const std::vector<LitPoint> lit = light_points(key_poses_[key]);
         const std::size_t first = key * direction_nodes;
         // From above and all around; the opposite directions are the others.

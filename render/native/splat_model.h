@@ -25,7 +25,7 @@ inline constexpr int sun_azimuths = 8;
 
 class SplatModel {
 public:
-    // Takes some seconds of processor time for a person of a thousand poses, on all threads.
+    // Takes half a second of processor time for a person of a thousand poses, on all threads.
     SplatModel(const figures::Figure& figure, const scene::Light& light);
 
     int points() const { return points_; }

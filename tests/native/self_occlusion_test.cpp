@@ -36,12 +36,10 @@ struct Body {
     }
     figures::Figure figure() const { return {&character.mesh, &poses, &points}; }
     std::vector<glm::vec3> facets() const {
-        std::vector<glm::vec3> all;
-        for (std::size_t i = 0; i < points.size(); ++i)
-            all.push_back(render::native::facet(figure(), 0, static_cast<int>(i)));
-        return all;
+        const figures::Figure of = figure();
+        return render::native::Facets(of).in_pose(0);
     }
-    SelfOcclusion occlusion() const { return {figure(), 0, shares}; }
+    SelfOcclusion occlusion() const { return {figure(), 0, facets(), shares}; }
 };
 
 const Body& body() {
