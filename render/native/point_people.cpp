@@ -83,9 +83,8 @@ constexpr float steps_a_cell = 1 << cell_bits;
 void take_points(const Sight& sight, SplatPerson& out) {
     const SplatModel& model = sight.model;
     const std::uint32_t pose = sight.person.pose;
-    out.positions = model.positions(pose);
-    out.normals = model.normals(pose);
-    out.facets = model.facets(pose);
+    out.first_chunk = model.first_chunk(pose);
+    out.other_chunks = model.other_chunks(pose);
     out.count = static_cast<int>(sight.person.count);
     out.last_share = fixed(sight.person.last_share);
     out.hides_itself = out.count > longest_two_sided_prefix;
@@ -159,10 +158,12 @@ void weigh(const Sight& sight, const Gains& gains, SplatPerson& out) {
     for (int i = 0; i < 4; ++i) {
         const int node = sight.between.node[i];
         const float share = sight.between.share[i];
+        const SplatModel::Look& look = model.look(pose, node);
+        out.first_visible[i] = look.first_visible;
         out.visible[i] = model.visible(pose, node);
         out.visible_share[i] = fixed(share, unit - 4.0f);  // rounded up, four still sum to at most one
-        interpolated += share * model.silhouette(pose, node);
-        summed += share * model.summed(pose, node);
+        interpolated += share * look.silhouette;
+        summed += share * look.summed;
     }
     // Off the screen's middle a silhouette's image is larger, as it is cast aslant.
     const float cells_per_unit = sight.cells_per_metre * sight.person.instance.scale;
@@ -228,12 +229,9 @@ Rect PointPeople::bounds_of(const SplatPerson& person) const {
 }
 
 void SplatPerson::prefetch() const {
-    for (const std::uint32_t* bits : visible) hwy::Prefetch(bits);
-    for (int i = 0; i < 3; ++i) hwy::Prefetch(positions + i * chunk_points);
-    hwy::Prefetch(normals);
-    hwy::Prefetch(normals + 2 * chunk_points);
-    hwy::Prefetch(facets);
-    hwy::Prefetch(facets + 2 * chunk_points);
+    constexpr int line = 64;
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(first_chunk);
+    for (std::size_t at = 0; at < sizeof(PosedChunk); at += line) hwy::Prefetch(bytes + at);
 }
 
 void PointPeople::make_kind(std::uint32_t character) {

@@ -36,16 +36,16 @@ Vector dot(const Vector* v, const std::array<std::int16_t, 3>& axis) {
 }
 
 // 127 becomes 32512; what they are multiplied by makes up for it.
-void load_directions(const std::int8_t* from, Vector* direction) {
+void load_directions(const std::array<std::array<std::int8_t, chunk_points>, 3>& from, int lane, Vector* direction) {
     const hn::Rebind<std::int8_t, Lanes> bytes;
     for (int axis = 0; axis < 3; ++axis)
-        direction[axis] = hn::ShiftLeft<8>(hn::PromoteTo(lanes, hn::LoadU(bytes, from + axis * chunk_points)));
+        direction[axis] = hn::ShiftLeft<8>(hn::PromoteTo(lanes, hn::LoadU(bytes, &from[axis][lane])));
 }
 
 // How much of each point is seen from the eye, were it to face it.
 HWY_INLINE Vector seen(const SplatPerson& person, int chunk, int lane) {
     const auto from = [&](int i) HWY_ATTR {
-        const auto* bits = reinterpret_cast<const std::uint8_t*>(person.visible[i] + chunk) + lane / 8;
+        const auto* bits = reinterpret_cast<const std::uint8_t*>(person.visible_of(chunk, i)) + lane / 8;
         return hn::IfThenElseZero(hn::LoadMaskBits(lanes, bits), all(person.visible_share[i]));
     };
     return hn::Add(hn::Add(from(0), from(1)), hn::Add(from(2), from(3)));
@@ -54,7 +54,7 @@ HWY_INLINE Vector seen(const SplatPerson& person, int chunk, int lane) {
 // What each point shows of its area; a quarter of it, as facets and shares go up to 2.
 HWY_INLINE Vector shown(const SplatPerson& person, int chunk, int lane) {
     Vector facet[3];
-    load_directions(person.facets + chunk * 3 * chunk_points + lane, facet);
+    load_directions(person.chunk(chunk).facet, lane, facet);
     const Vector facing = dot(facet, person.to_eye);
     const Vector near = hn::Load(lanes, person.shares[0] + chunk * chunk_points + lane);
     const Vector far = hn::Load(lanes, person.shares[1] + chunk * chunk_points + lane);
@@ -75,7 +75,7 @@ int chunks_of(const SplatPerson& person) {
 // Normals of points that are seen from behind show that side's light.
 void turn_to_eye(const SplatPerson& person, int chunk, int lane, Vector* normal) {
     Vector facet[3];
-    load_directions(person.facets + chunk * 3 * chunk_points + lane, facet);
+    load_directions(person.chunk(chunk).facet, lane, facet);
     const auto away = hn::Lt(dot(facet, person.to_eye), hn::Zero(lanes));
     for (int axis = 0; axis < 3; ++axis) normal[axis] = hn::IfThenElse(away, hn::Neg(normal[axis]), normal[axis]);
 }
@@ -109,7 +109,7 @@ Vector albedo(const SplatPerson& person, int channel, int chunk, int lane, Vecto
 // Linear light that each point sends, 32767 = 1.
 void find_colors(const SplatPerson& person, const SplatLight& light, int chunk, int lane, Vector* color) {
     Vector normal[3];
-    load_directions(person.normals + chunk * 3 * chunk_points + lane, normal);
+    load_directions(person.chunk(chunk).normal, lane, normal);
     if (person.two_sided) turn_to_eye(person, chunk, lane, normal);
     const Vector sunlit = hn::Max(dot(normal, person.to_sun), hn::Zero(lanes));
     const Vector index =
@@ -189,9 +189,8 @@ struct Place {
 
 void stage(const SplatPerson& person, const SplatLight& light, const Patch& patch, Place place, Area area,
            const Parts* parts, int chunk, int lane, Staged& out) {
-    const std::int16_t* from = person.positions + chunk * 3 * chunk_points + lane;
     Vector position[3];
-    for (int axis = 0; axis < 3; ++axis) position[axis] = hn::Load(lanes, from + axis * chunk_points);
+    for (int axis = 0; axis < 3; ++axis) position[axis] = hn::Load(lanes, &person.chunk(chunk).position[axis][lane]);
 
     const Vector part = parts ? hn::Load(lanes, parts->of + chunk * chunk_points + lane) : shown(person, chunk, lane);
     const Vector cover = hn::ShiftLeftSame(times(part, all(area.steps)), area.shift);

@@ -14,6 +14,7 @@
 #include "model/slot.h"
 #include "render/native/array.h"
 #include "render/native/near_layer.h"
+#include "render/native/posed_chunk.h"
 
 namespace render::native {
 
@@ -27,10 +28,9 @@ inline constexpr int longest_summed_prefix = 512;
 // One person, as their points are drawn. 16-bit fixed point: 32767 = 1 where nothing else is said.
 struct SplatPerson {
     // Of the pose (splat_model.h).
-    const std::int16_t* positions;
-    const std::int8_t* normals;
-    const std::int8_t* facets;
-    std::array<const std::uint32_t*, 4> visible;
+    const PosedChunk *first_chunk, *other_chunks;
+    std::array<std::uint32_t, 4> first_visible;   // of the first chunk
+    std::array<const std::uint32_t*, 4> visible;  // of all
     std::array<std::int16_t, 4> visible_share;
     std::array<const std::int16_t*, 2> shares;  // the near ones and the far ones
     std::int16_t to_far;
@@ -58,6 +58,10 @@ struct SplatPerson {
     std::int16_t depth_code, thickness;
     std::int16_t x0, y0, x1, y1;  // [cells] what they may touch
 
+    const PosedChunk& chunk(int i) const { return i == 0 ? *first_chunk : other_chunks[i - 1]; }
+    const std::uint32_t* visible_of(int chunk, int look) const {
+        return chunk == 0 ? &first_visible[look] : visible[look] + chunk;
+    }
     Rect cells() const { return {x0, y0, x1, y1}; }
     float nearest() const { return depth - reach; }  // [m] view depth
     void prefetch() const;                           // the first points: they will be drawn soon

@@ -33,7 +33,6 @@ constexpr std::uint32_t first_rung = 1;  // two points
 constexpr float facet_unit = 64.0f;
 constexpr float share_unit = 16384.0f;
 
-constexpr int light_values = sun_azimuths * (1 + model::slot_count) * 3;
 constexpr float light_unit = 16384.0f;
 constexpr int lit_points = 512;  // as many tell what light a body sends
 
@@ -98,10 +97,8 @@ SplatModel::SplatModel(const figures::Figure& figure, const scene::Light& light)
 
 void SplatModel::pack_poses(const figures::Figure& figure) {
     const motion::PoseTable& poses = *figure.poses;
-    const std::size_t pose_size = std::size_t{3} * chunk_points * chunks_;
-    positions_.resize(pose_size * poses.pose_count);
-    normals_.resize(pose_size * poses.pose_count);
-    facets_.resize(pose_size * poses.pose_count);
+    first_chunks_.resize(static_cast<std::size_t>(poses.pose_count));
+    other_chunks_.resize(static_cast<std::size_t>(poses.pose_count) * (chunks_ - 1));
     extents_.resize(static_cast<std::size_t>(poses.pose_count));
     const Facets facets(figure);
     const std::vector<PackedNormal> normal_of = packed_normals();
@@ -115,12 +112,13 @@ void SplatModel::pack_poses(const figures::Figure& figure) {
             const motion::PosedVertex& posed = poses.points[static_cast<std::size_t>(pose) * poses.point_count + point];
             const PackedNormal normal = normal_of[code_of(posed)];
             const std::array<std::uint16_t, 3> packed{posed.x, posed.y, posed.z};
-            const std::size_t at = pose_size * pose + (i / chunk_points) * 3 * chunk_points + i % chunk_points;
+            PosedChunk& chunk = chunk_of(static_cast<std::uint32_t>(pose), i / chunk_points);
+            const int lane = i % chunk_points;
             for (int axis = 0; axis < 3; ++axis) {
                 const auto position = static_cast<std::int16_t>(packed[axis] - 32768);
-                positions_[at + axis * chunk_points] = position;
-                normals_[at + axis * chunk_points] = normal[axis];
-                facets_[at + axis * chunk_points] =
+                chunk.position[axis][lane] = position;
+                chunk.normal[axis][lane] = normal[axis];
+                chunk.facet[axis][lane] =
                     static_cast<std::int8_t>(nearest(std::clamp(facet_unit * pieces[point][axis], -127.0f, 127.0f)));
                 extent.min[axis] = std::min(extent.min[axis], position);
                 extent.max[axis] = std::max(extent.max[axis], position);
@@ -206,20 +204,18 @@ void SplatModel::choose_keys(const figures::Figure& figure) {
 void SplatModel::look_around(const figures::Figure& figure) {
     const std::size_t looks = key_poses_.size() * direction_nodes;
     visible_.assign(looks * chunks_, 0);
-    lights_.assign(looks * light_values, 0);
-    silhouettes_.resize(looks);
-    summed_.resize(looks);
+    lights_.assign(looks * sun_azimuths * light_stride, 0);
+    looks_.resize(looks);
     const Facets facets(figure);
     const float area_each = area_ / static_cast<float>(points_);
     std::vector<float> own(static_cast<std::size_t>(points_));
     for (int i = 0; i < points_; ++i)
         own[i] =
             static_cast<float>(shares_[std::size_t{chunk_points} * chunks_ * (rungs_.size() - 1) + i]) / share_unit;
-    tbb::parallel_for(std::size_t{0}, key_poses_.size(), [&](std::size_t key) {
+    tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(key_poses_.size()), [&](std::uint32_t key) {
         const int pose = static_cast<int>(key_poses_[key]);
         SelfOcclusion body(figure, pose, facets.in_pose(pose), own);
         const std::vector<LitPoint> lit = light_points(key_poses_[key]);
-        const std::size_t first = key * direction_nodes;
         // From above and all around; the opposite directions are the others.
         for (int node = (rings / 2) * ring_nodes; node < direction_nodes; ++node) {
             if (node / ring_nodes == rings / 2 && opposite_of(node) < node) continue;
@@ -227,39 +223,46 @@ void SplatModel::look_around(const figures::Figure& figure) {
             const glm::vec3 direction = direction_of(node);
             const std::array<SelfOcclusion::Seen, 2> seen = body.look_both_ways(direction);
             for (int way = 0; way < 2; ++way) {
-                const std::size_t look = first + (way == 0 ? node : opposite_of(node));
-                std::ranges::copy(seen[way].visible, &visible_[look * chunks_]);
-                silhouettes_[look] = seen[way].silhouette;
-                summed_[look] = area_each * seen[way].facing;
-                find_lights(look, way == 0 ? direction : -direction, lit, seen[way].shown);
+                const int from = way == 0 ? node : opposite_of(node);
+                const std::size_t number = std::size_t{key} * direction_nodes + from;
+                std::ranges::copy(seen[way].visible, &visible_[number * chunks_]);
+                Look& look = looks_[number];
+                look.silhouette = seen[way].silhouette;
+                look.summed = area_each * seen[way].facing;
+                look.first_visible = visible_[number * chunks_];
+                find_lights(key, from, way == 0 ? direction : -direction, lit, seen[way].shown);
             }
         }
         for (int node = 0; node < direction_nodes; ++node)
-            if (is_pole(node)) copy_look(first + seen_of_pole(node), first + node);
+            if (is_pole(node)) copy_look(key, seen_of_pole(node), node);
     });
     find_bends();
 }
 
-void SplatModel::copy_look(std::size_t from, std::size_t to) {
+void SplatModel::copy_look(std::uint32_t key, int from, int to) {
     if (from == to) return;
-    std::copy_n(&visible_[from * chunks_], chunks_, &visible_[to * chunks_]);
-    silhouettes_[to] = silhouettes_[from];
-    summed_[to] = summed_[from];
-    std::copy_n(&lights_[from * light_values], light_values, &lights_[to * light_values]);
+    const std::size_t first = std::size_t{key} * direction_nodes;
+    std::copy_n(&visible_[(first + from) * chunks_], chunks_, &visible_[(first + to) * chunks_]);
+    looks_[first + to] = looks_[first + from];
+    for (int azimuth = 0; azimuth < sun_azimuths; ++azimuth)
+        std::copy_n(lights_of(key, azimuth, from), light_stride, lights_of(key, azimuth, to));
 }
 
-std::vector<SplatModel::LitPoint> SplatModel::light_points(std::uint32_t pose) const {
+std::vector<SplatModel::LitPoint> SplatModel::light_points(std::uint32_t pose) {
     std::array<glm::vec3, sun_azimuths> suns;
     for (int azimuth = 0; azimuth < sun_azimuths; ++azimuth) suns[azimuth] = sun_at(azimuth, light_.to_sun);
     std::vector<LitPoint> lit(static_cast<std::size_t>(std::min(points_, lit_points)));
     for (std::size_t i = 0; i < lit.size(); ++i) {
-        const std::size_t at = 3 * chunk_points * (i / chunk_points) + i % chunk_points;
-        const auto three = [&](const auto* from, float unit) {
-            return glm::vec3(from[at], from[at + chunk_points], from[at + 2 * chunk_points]) / unit;
+        const PosedChunk& chunk = chunk_of(pose, static_cast<int>(i) / chunk_points);
+        const std::size_t lane = i % chunk_points;
+        const auto three = [&](const auto& of, float unit) {
+            return glm::vec3(of[0][lane], of[1][lane], of[2][lane]) / unit;
         };
-        const glm::vec3 normal = three(normals(pose), 127.0f), color = three(colors(), 32767.0f);
+        const std::int16_t* own = colors() + 3 * chunk_points * (i / chunk_points) + lane;
+        const glm::vec3 color = glm::vec3(own[0], own[chunk_points], own[2 * chunk_points]) / 32767.0f;
+        const glm::vec3 normal = three(chunk.normal, 127.0f);
         lit[i].slot = (slots_[i] & 0xff) / 2;
-        lit[i].facet = three(facets(pose), facet_unit);
+        lit[i].facet = three(chunk.facet, facet_unit);
         for (int side = 0; side < 2; ++side) {
             const glm::vec3 outward = side == 0 ? normal : -normal;
             const glm::vec3 around = glm::mix(light_.from_below, light_.from_above, 0.5f + 0.5f * outward.y);
@@ -274,7 +277,7 @@ std::vector<SplatModel::LitPoint> SplatModel::light_points(std::uint32_t pose) c
     return lit;
 }
 
-void SplatModel::find_lights(std::size_t look, glm::vec3 direction, std::span<const LitPoint> lit,
+void SplatModel::find_lights(std::uint32_t key, int node, glm::vec3 direction, std::span<const LitPoint> lit,
                              std::span<const float> shown) {
     std::array<std::array<float, 3 * sun_azimuths>, 1 + model::slot_count> sums{};
     float weights = 0;
@@ -288,59 +291,56 @@ void SplatModel::find_lights(std::size_t look, glm::vec3 direction, std::span<co
         weights += weight;
     }
     if (!(weights > 0.0f)) return;
-    std::uint16_t* light = &lights_[look * light_values];
-    for (int azimuth = 0; azimuth < sun_azimuths; ++azimuth)
+    for (int azimuth = 0; azimuth < sun_azimuths; ++azimuth) {
+        std::uint16_t* light = lights_of(key, azimuth, node);
         for (const auto& sum : sums)
             for (int channel = 0; channel < 3; ++channel)
                 *light++ =
                     static_cast<std::uint16_t>(std::min(light_unit * sum[3 * azimuth + channel] / weights, 65535.0f));
+    }
 }
 
 SplatModel::SlotLights SplatModel::lights(std::uint32_t pose, const Between& between, glm::vec3 to_sun) const {
     const float turn = diamond_of(to_sun.x, to_sun.z) * (sun_azimuths / 4.0f);
     const int below = std::min(static_cast<int>(turn), sun_azimuths - 1), above = (below + 1) % sun_azimuths;
     const float share = turn - static_cast<float>(below);
-    constexpr int each = light_values / sun_azimuths;
-    std::array<float, each> sums{};
+    std::array<float, light_stride> sums{};
     for (int i = 0; i < 4; ++i) {
-        const std::uint16_t* look =
-            &lights_[(std::size_t{key_of_[pose]} * direction_nodes + between.node[i]) * light_values];
-        const std::uint16_t *from = look + below * each, *to = look + above * each;
+        const std::uint16_t* from = lights_of(key_of_[pose], below, between.node[i]);
+        const std::uint16_t* to = lights_of(key_of_[pose], above, between.node[i]);
         const float far = between.share[i] * share / light_unit, near = between.share[i] / light_unit - far;
-        for (int value = 0; value < each; ++value)
+        for (int value = 0; value < light_stride; ++value)
             sums[value] += near * static_cast<float>(from[value]) + far * static_cast<float>(to[value]);
     }
     SlotLights out;
-    for (int value = 0; value < each; ++value) out[value / 3][value % 3] = sums[value];
+    for (int value = 0; value < light_values; ++value) out[value / 3][value % 3] = sums[value];
     return out;
 }
 
 void SplatModel::find_bends() {
-    bends_around_.resize(silhouettes_.size());
-    bends_up_.resize(silhouettes_.size());
     for (std::size_t key = 0; key < key_poses_.size(); ++key) {
-        const float* s = &silhouettes_[key * direction_nodes];
+        Look* looks = &looks_[key * direction_nodes];
+        const auto s = [looks](int node) { return looks[node].silhouette; };
         for (int node = 0; node < direction_nodes; ++node) {
             const int ring = node / ring_nodes, first = ring * ring_nodes, at = node - first;
-            const float left = s[first + (at + ring_nodes - 1) % ring_nodes], right = s[first + (at + 1) % ring_nodes];
-            bends_around_[key * direction_nodes + node] = 0.5f * (left - 2.0f * s[node] + right);
+            const float left = s(first + (at + ring_nodes - 1) % ring_nodes), right = s(first + (at + 1) % ring_nodes);
+            looks[node].bend_around = 0.5f * (left - 2.0f * s(node) + right);
             // Beyond a pole the ring that it came from goes on, on the other side.
             const int opposite = (at + ring_nodes / 2) % ring_nodes;
-            const float below = ring > 0 ? s[node - ring_nodes] : s[ring_nodes + opposite];
-            const float above = ring + 1 < rings ? s[node + ring_nodes] : s[(rings - 2) * ring_nodes + opposite];
-            bends_up_[key * direction_nodes + node] = 0.5f * (below - 2.0f * s[node] + above);
+            const float below = ring > 0 ? s(node - ring_nodes) : s(ring_nodes + opposite);
+            const float above = ring + 1 < rings ? s(node + ring_nodes) : s((rings - 2) * ring_nodes + opposite);
+            looks[node].bend_up = 0.5f * (below - 2.0f * s(node) + above);
         }
     }
 }
 
 // Between two nodes a silhouette bulges out: a straight line would be up to 5 % short of it.
 float SplatModel::silhouette(std::uint32_t pose, const Between& between) const {
-    const std::size_t first = std::size_t{key_of_[pose]} * direction_nodes;
     const float around = between.around * (1.0f - between.around), up = between.up * (1.0f - between.up);
     float sum = 0;
     for (int i = 0; i < 4; ++i) {
-        const std::size_t node = first + between.node[i];
-        sum += between.share[i] * (silhouettes_[node] - around * bends_around_[node] - up * bends_up_[node]);
+        const Look& there = look(pose, between.node[i]);
+        sum += between.share[i] * (there.silhouette - around * there.bend_around - up * there.bend_up);
     }
     return sum;
 }

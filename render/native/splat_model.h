@@ -11,11 +11,11 @@
 #include "figures/figure.h"
 #include "render/native/array.h"
 #include "render/native/directions.h"
+#include "render/native/posed_chunk.h"
 #include "scene/light.h"
 
 namespace render::native {
 
-inline constexpr int chunk_points = 32;
 // Prefixes up to so long show the mean looks of the surface that their points stand for (pointsample/prefix_look.h).
 inline constexpr int longest_mean_prefix = chunk_points;
 // Of a handful of points none may happen to face the eye: each stands for both sides of the body.
@@ -30,11 +30,12 @@ public:
 
     int points() const { return points_; }
 
-    // Of a pose, [chunk][axis][chunk_points]: positions, -32768 to 32767 over the character's box; normals, 127 = 1;
-    // and facets (facets.h), 64 = 1.
-    const std::int16_t* positions(std::uint32_t pose) const { return &positions_[pose * chunks_ * 3 * chunk_points]; }
-    const std::int8_t* normals(std::uint32_t pose) const { return &normals_[pose * chunks_ * 3 * chunk_points]; }
-    const std::int8_t* facets(std::uint32_t pose) const { return &facets_[pose * chunks_ * 3 * chunk_points]; }
+    // The points of a pose. The first chunks of all poses are side by side, and so stay in a cache near by: of people
+    // who are far away nothing else is asked for.
+    const PosedChunk* first_chunk(std::uint32_t pose) const { return &first_chunks_[pose]; }
+    const PosedChunk* other_chunks(std::uint32_t pose) const {
+        return other_chunks_.data() + std::size_t{pose} * (chunks_ - 1);
+    }
     // What a pose's points span, in the positions' own units.
     struct Extent {
         std::array<std::int16_t, 3> min, max;
@@ -60,19 +61,19 @@ public:
     };
     Blend shares(float count) const;
 
-    // From a direction, in a pose near to the one asked for: which points nothing of the body hides, a bit each; the
-    // silhouette's area [model units^2]; and the same as the sum over the visible points says it, if together they were
-    // of area().
-    const std::uint32_t* visible(std::uint32_t pose, int node) const {
-        return &visible_[(std::size_t{key_of_[pose]} * direction_nodes + node) * chunks_];
+    // What there is to see from a node's direction, in a key pose.
+    struct Look {
+        float silhouette;             // [model units^2]
+        float summed;                 // the same as the visible points' sum says it, if together they were of area()
+        float bend_around, bend_up;   // of silhouettes: half the second difference around, and from ring to ring
+        std::uint32_t first_visible;  // which points of the first chunk nothing of the body hides, a bit each
+    };
+    // In the key pose next to this one.
+    const Look& look(std::uint32_t pose, int node) const { return looks_[look_of(pose, node)]; }
+    const std::uint32_t* visible(std::uint32_t pose, int node) const {  // of all chunks
+        return &visible_[look_of(pose, node) * chunks_];
     }
     float silhouette(std::uint32_t pose, const Between& between) const;
-    float silhouette(std::uint32_t pose, int node) const {
-        return silhouettes_[std::size_t{key_of_[pose]} * direction_nodes + node];
-    }
-    float summed(std::uint32_t pose, int node) const {
-        return summed_[std::size_t{key_of_[pose]} * direction_nodes + node];
-    }
     // What is seen from there of somebody on whom the sun shines along `to_sun`, in the model's axes: the mean linear
     // light of each channel that surfaces of a slot send, where the slot's own colour is white. Summed over slots,
     // times their colours, it is the mean light of the silhouette.
@@ -88,36 +89,49 @@ private:
     void pack_shares(const figures::Figure& figure);
     void choose_keys(const figures::Figure& figure);
     void look_around(const figures::Figure& figure);
-    void copy_look(std::size_t from, std::size_t to);
+    void copy_look(std::uint32_t key, int from, int to);
     // What a point sends from either side, for each azimuth of the sun and channel, were it of slot colour white.
     struct LitPoint {
         int slot;
         glm::vec3 facet;
         std::array<std::array<float, 3 * sun_azimuths>, 2> light;
     };
-    std::vector<LitPoint> light_points(std::uint32_t pose) const;
+    std::vector<LitPoint> light_points(std::uint32_t pose);
     // `shown`: what is seen of each point from there.
-    void find_lights(std::size_t look, glm::vec3 direction, std::span<const LitPoint> lit,
+    void find_lights(std::uint32_t key, int node, glm::vec3 direction, std::span<const LitPoint> lit,
                      std::span<const float> shown);
     void find_bends();
+
+    std::size_t look_of(std::uint32_t pose, int node) const {
+        return std::size_t{key_of_[pose]} * direction_nodes + node;
+    }
+    PosedChunk& chunk_of(std::uint32_t pose, int chunk) {
+        return chunk == 0 ? first_chunks_[pose] : other_chunks_[std::size_t{pose} * (chunks_ - 1) + chunk - 1];
+    }
+    // Of a look, [slot][channel], and one more.
+    static constexpr int light_values = (1 + model::slot_count) * 3, light_stride = (light_values + 7) / 8 * 8;
+    std::uint16_t* lights_of(std::uint32_t key, int azimuth, int node) {
+        return &lights_[((std::size_t{key} * sun_azimuths + azimuth) * direction_nodes + node) * light_stride];
+    }
+    const std::uint16_t* lights_of(std::uint32_t key, int azimuth, int node) const {
+        return const_cast<SplatModel*>(this)->lights_of(key, azimuth, node);
+    }
 
     int points_ = 0, chunks_ = 0;
     bool double_sided_ = false;
     float area_ = 0;
-    Array<std::int16_t> positions_, colors_, mean_colors_, mean_shares_;
+    Array<PosedChunk> first_chunks_, other_chunks_;
+    Array<std::int16_t> colors_, mean_colors_, mean_shares_;
     Array<std::int16_t> shares_;  // a rung of `rungs_` each, and in the place of those it lacks the next rung's
     std::vector<int> rungs_;      // numbers of points, rising to points_
-    Array<std::int8_t> normals_, facets_;
     Array<std::uint16_t> slots_;
     std::vector<Extent> extents_;
     std::vector<std::uint32_t> key_of_;  // a pose's key pose, as a number of its own
     std::vector<std::uint32_t> key_poses_;
-    std::vector<std::uint32_t> visible_;       // [key][node][chunk]
-    std::vector<float> silhouettes_, summed_;  // [key][node]
-    // Of the silhouettes, half the second differences from node to node: around, and from ring to ring.
-    std::vector<float> bends_around_, bends_up_;
+    std::vector<Look> looks_;             // [key][node]
+    std::vector<std::uint32_t> visible_;  // [key][node][chunk]
     scene::Light light_;
-    std::vector<std::uint16_t> lights_;  // [key][node][azimuth of the sun][slot][channel], light_unit = 1
+    std::vector<std::uint16_t> lights_;  // [key][azimuth of the sun][node][light_stride], light_unit = 1
 };
 
 }  // namespace render::native
