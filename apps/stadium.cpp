@@ -145,6 +145,7 @@ private:
         timer.begin(frame);
         const render::Survey& survey = selector_->survey(view, clock_.tick(), renderer.begin(view));
         row.range = survey.range;
+        row.hidden = survey.hidden;
         row.decision = options_.state ? fixed_decision(options_, *options_.state, row.range)
                                       : controller_->decide({row.target_ms, row.range, &survey.forecast});
         if (!options_.state) row.predicted_ms = controller_->status().predicted_ms;

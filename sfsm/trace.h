@@ -26,6 +26,7 @@ struct TraceRow {
     Decision decision;                                               // the one this frame was drawn with
     double range = 0;                                                // L [m] given to the controller before this frame
     Work work;
+    std::int64_t hidden = 0;           // people who are not drawn as the structure hides them
     std::optional<State> drawn_state;  // what became of the decision, if the renderer said so: at most its state
 
     // The forecast given to the controller before this frame; both empty if there was none.

@@ -236,6 +236,10 @@ constexpr auto columns_with(std::index_sequence<first...>, std::index_sequence<l
         count_column<first>()...,
         column<Number, &Row::range>("range_m", "m", "L: how far people are visible, as the law was told"),
         count_column<first_kinds + later>()...,
+        column<Count, &Row::hidden>("hidden", "",
+                                    "people not drawn as the structure hides them; all others who aren't "
+                                    "drawn are out of view or haven't come yet",
+                                    optional),
         column<MaybeState, &Row::drawn_state>(
             "drawn_state", "",
             "2: somebody was drawn by less than their triangles; 1: somebody moved less often; 0: neither", optional),

@@ -50,7 +50,7 @@ inline constexpr auto work_table = std::to_array<WorkEntry>({
     {WorkKind::person,
      "person",
      "visible",
-     "people in view",
+     "people drawn",
      WorkAxis::frame,
      {{/* gl */ {50, 1, 0, 50, 1}, /* native */ {10, 1, 0, 10, 1}}}},
     {WorkKind::triangle,

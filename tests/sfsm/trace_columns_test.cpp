@@ -57,6 +57,7 @@ TEST(TraceColumns, ReadWhatTheyWrite) {
     row.target_ms = 2.5, row.frame_ms = 3.5, row.cpu_ms = 4.5, row.gpu_ms = 5.5, row.predicted_ms = 6.5;
     row.decision = {State::points, 7.5, 8.5};
     row.range = 9.5;
+    row.hidden = 11;
     row.drawn_state = State::slowed;
     for (std::size_t i = 0; i < work_kinds; ++i) row.work.counts[i] = 10 + static_cast<std::int64_t>(i);
     row.motion = {{20, only_on<WorkAxis::motion>(row.work), 0.5}};

@@ -55,6 +55,7 @@ TraceRow any_row(std::mt19937_64& random, std::int64_t frame) {
     row.decision.motion_distance = uniform(random, 1e-3, 1e3);
     row.decision.splat_size = uniform(random, 0, max_splat_size);
     if (random() % 4 == 0) row.decision = {};
+    row.hidden = static_cast<std::int64_t>(random() >> (1 + random() % 63));
     if (random() % 2 == 0) row.drawn_state = static_cast<State>(random() % 3);
     for (std::int64_t& count : row.work.counts) count = static_cast<std::int64_t>(random() >> (1 + random() % 63));
     for (std::uint64_t steps = random() % 3; steps > 0; --steps) {
@@ -80,6 +81,7 @@ TEST(Trace, EveryRowReadsBackToTheSameBits) {
         EXPECT_EQ(a.frame, b.frame);
         EXPECT_EQ(a.decision, b.decision);
         EXPECT_EQ(a.work, b.work);
+        EXPECT_EQ(a.hidden, b.hidden);
         EXPECT_EQ(a.motion, b.motion);
         EXPECT_EQ(a.shapes, b.shapes);
         EXPECT_EQ(a.drawn_state, b.drawn_state);
