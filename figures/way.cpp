@@ -10,8 +10,8 @@ namespace figures {
 namespace {
 
 constexpr Way way_of(sfsm::Drawing drawing, std::span<const Representation> representations, float nearest,
-                     std::size_t most_points) {
-    Way way{drawing, representations, {}, nearest, most_points};
+                     float overhang, std::size_t most_points) {
+    Way way{drawing, representations, {}, nearest, overhang, most_points};
     for (std::size_t kind = 0; kind < sfsm::work_kinds; ++kind)
         way.pieces[kind] = sfsm::work_table[kind].prior(drawing).pieces;
     return way;
@@ -28,13 +28,13 @@ std::size_t points_worth(std::size_t triangle_count, const Way& way) {
 
 const Way& by_opengl() {
     static constexpr Representation list[] = {triangles, points};
-    static constexpr Way way = way_of(sfsm::Drawing::opengl, list, 0.0f, 16384);
+    static constexpr Way way = way_of(sfsm::Drawing::opengl, list, 0.0f, 0.5f, 16384);
     return way;
 }
 
 const Way& natively() {
     static constexpr Representation list[] = {triangles, native_points};
-    static constexpr Way way = way_of(sfsm::Drawing::native, list, 4.0f, 4096);
+    static constexpr Way way = way_of(sfsm::Drawing::native, list, 4.0f, 0.0f, 4096);
     return way;
 }
 

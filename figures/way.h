@@ -14,6 +14,7 @@ struct Way {
     std::span<const Representation> representations;  // in the order in which they are drawn and numbered
     std::array<double, sfsm::work_kinds> pieces;      // that one of each kind of work is believed to cost (sfsm/work.h)
     float nearest;                                    // who isn't this many of their radii away is drawn exactly
+    float overhang;                                   // of splats beyond their person, in square roots of a silhouette
     std::size_t most_points;                          // of a model: more are of no use, whatever its triangles cost
 };
 

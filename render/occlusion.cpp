@@ -6,12 +6,12 @@
 namespace render {
 
 bool Occlusion::hides(glm::vec2 low, glm::vec2 high, float nearest_depth, const View& view) const {
-    const auto block = [](float ndc, int pixels, int blocks) {
-        const float at = std::floor((0.5f + 0.5f * ndc) * static_cast<float>(pixels) / block_side);
+    const auto block = [](float ndc, float margin_px, int pixels, int blocks) {
+        const float at = std::floor(((0.5f + 0.5f * ndc) * static_cast<float>(pixels) + margin_px) / block_side);
         return static_cast<int>(std::clamp(at, 0.0f, static_cast<float>(blocks - 1)));
     };
-    const int x0 = block(low.x, view.width, columns), x1 = block(high.x, view.width, columns);
-    const int y0 = block(-high.y, view.height, rows), y1 = block(-low.y, view.height, rows);
+    const int x0 = block(low.x, -margin, view.width, columns), x1 = block(high.x, margin, view.width, columns);
+    const int y0 = block(-high.y, -margin, view.height, rows), y1 = block(-low.y, margin, view.height, rows);
     const float nearest = near_plane / nearest_depth;
     for (int y = y0; y <= y1; ++y)
         for (int x = x0; x <= x1; ++x)

@@ -14,6 +14,7 @@ struct Occlusion {
     static constexpr int block_side = 8;  // [px]
     const float* farthest = nullptr;
     int stride = 0, columns = 0, rows = 0;  // [blocks]
+    float margin = 0;                       // [px] so far around what is asked about it may show as well
 
     // Whether a camera-relative ball / a world box is hidden in every pixel. Never says so of what shows. `view` is the
     // one that this was made for.

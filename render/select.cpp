@@ -32,8 +32,11 @@ Selector::Selector(const scene::Crowd& crowd, std::span<const scene::CastMember>
         kind.first_batch = frame_.batch_numbers;
         kind.center = glm::vec3(0.0f, box.center().y, 0.0f);
         kind.radius = glm::length(glm::vec3(reach.x, 0.5f * box.size().y, reach.z));
+        kind.overhang = options_.way->overhang * std::sqrt(0.25f * figure.poses->area);
         frame_.batch_numbers += static_cast<std::uint32_t>(kind.choices.all().size() * figure.poses->pose_count);
     }
+    for (std::size_t person = 0; person < crowd_.size(); ++person)
+        overhang_ = std::max(overhang_, scale_of(person) * kinds_[crowd_.character[person]].overhang);
     const auto staleness = measure_staleness(crowd_, cast_, figures_);
     std::vector<Forecaster::Kind> priced;
     for (std::size_t i = 0; i < kinds_.size(); ++i) priced.push_back({kinds_[i].choices, staleness[i]});
@@ -68,7 +71,8 @@ void Selector::find_blocks() {
         const scene::CrowdBlock& people = crowd_.blocks[block];
         const Overlap seen = overlap(view_, people.box);
         if (seen == Overlap::outside) continue;
-        if (around_.occlusion && around_.occlusion->hides_box(view_, people.box)) {
+        if (around_.occlusion &&
+            around_.occlusion->hides_box(view_, {people.box.min - overhang_, people.box.max + overhang_})) {
             survey_.hidden += people.count;
             continue;
         }
@@ -89,7 +93,7 @@ void Selector::find_visible(std::size_t block_index) {
         float& depth = depth_[person];
         if ((cull && !sphere_visible(view_, center, radius)) || !scene::has_arrived(crowd_, person, tick_))
             depth = unseen;
-        else if (around_.occlusion && around_.occlusion->hides_ball(view_, center, radius))
+        else if (around_.occlusion && around_.occlusion->hides_ball(view_, center, radius + scale * kind.overhang))
             depth = behind;
         else
             depth = std::max(view_.depth(center), near_plane);

@@ -32,7 +32,7 @@ struct SelectOptions {
 struct Survey {
     float range = 1;          // L [m]: the view depth of the farthest visible person, at least 1
     sfsm::Forecast forecast;  // valid until the next survey
-    std::int64_t hidden = 0;  // people in view, behind the structure: they aren't drawn
+    std::int64_t hidden = 0;  // people behind the structure: they aren't drawn
 };
 
 // A frame is surveyed, then selected from. Reuses its memory: after the first frames nothing is allocated.
@@ -63,6 +63,7 @@ private:
         // A ball around the character in every pose, on the axis that it turns about [model units].
         glm::vec3 center{0.0f};
         float radius = 0;
+        float overhang = 0;  // of their splats [model units]
     };
     static constexpr float unseen = -1.0f, behind = -2.0f;
 
@@ -81,6 +82,7 @@ private:
     std::vector<figures::Figure> figures_;
     SelectOptions options_;
     std::vector<Kind> kinds_;
+    float overhang_ = 0;  // the largest of anybody [m]
 
     View view_;
     std::int64_t tick_ = 0;

@@ -51,6 +51,11 @@ View make_view(const scene::CameraPose& pose, int width, int height) {
     return view;
 }
 
+bool same_view(const View& a, const View& b) {
+    return a.width == b.width && a.height == b.height && a.position == b.position &&
+           a.clip_from_camera_relative == b.clip_from_camera_relative;
+}
+
 Overlap overlap(const View& view, const motion::Bounds& world_box) {
     const glm::vec3 center = view.relative(world_box.center());
     const glm::vec3 half = 0.5f * world_box.size();

@@ -24,6 +24,9 @@ struct View {
     float pixels_per_metre(float depth_m) const { return 0.5f * static_cast<float>(height) / (tan_half_y * depth_m); }
 };
 
+// Whether a picture of the one is one of the other, to the bit.
+bool same_view(const View& a, const View& b);
+
 inline constexpr float near_plane = 0.1f;  // [m]
 
 // `pose.target` straight above or below `pose.position` is fine. width, height > 0.

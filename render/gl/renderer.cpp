@@ -8,6 +8,7 @@
 #include <string>
 
 #include "render/frame_block.h"
+#include "render/gl/device.h"
 
 namespace render::gl {
 
@@ -40,6 +41,14 @@ Buffer make_figure_block(const figures::Figure& figure) {
     return buffer;
 }
 
+// Whether it pays to find out beforehand who is hidden, and a picture can't show it.
+bool is_worth_an_occluder() {
+    constexpr GLint enough_subpixel_bits = 8;
+    GLint subpixel_bits = 0;
+    glGetIntegerv(GL_SUBPIXEL_BITS, &subpixel_bits);
+    return read_device().software && subpixel_bits >= enough_subpixel_bits;
+}
+
 }  // namespace
 
 Renderer::Renderer(const scene::StaticMesh& structure, const scene::Ground& ground, const scene::Light& light,
@@ -51,6 +60,7 @@ Renderer::Renderer(const scene::StaticMesh& structure, const scene::Ground& grou
       commands_(Buffer::create()),
       ground_(ground),
       light_(light) {
+    if (is_worth_an_occluder()) occluder_.emplace(structure);
     glNamedBufferStorage(frame_block_.name(), sizeof(FrameBlock), nullptr, GL_DYNAMIC_STORAGE_BIT);
     for (const figures::Figure& figure : figures) {
         figure_blocks_.push_back(make_figure_block(figure));
@@ -58,6 +68,10 @@ Renderer::Renderer(const scene::StaticMesh& structure, const scene::Ground& grou
     }
     resize(width, height);
     check_for_errors();
+}
+
+Surroundings Renderer::begin(const View& view) {
+    return {backdrop_.work(view), occluder_ ? occluder_->look(view) : nullptr};
 }
 
 void Renderer::resize(int width, int height) {

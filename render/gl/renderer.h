@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "render/gl/backdrop.h"
 #include "render/gl/figure_drawer.h"
 #include "render/gl/objects.h"
+#include "render/native/occluder.h"
 #include "render/renderer.h"
 #include "scene/ground.h"
 #include "scene/light.h"
@@ -28,7 +30,8 @@ public:
 
     void resize(int width, int height) override;
 
-    Surroundings begin(const View& view) override { return {backdrop_.work(view), nullptr}; }
+    // Where OpenGL is software, with whom the structure hides.
+    Surroundings begin(const View& view) override;
 
     // Draws into the renderer's own target; splats are at least one pixel wide.
     void draw(const Frame& frame) override;
@@ -51,6 +54,7 @@ private:
     void draw_people() const;
 
     Backdrop backdrop_;
+    std::optional<native::Occluder> occluder_;
     std::vector<std::unique_ptr<FigureDrawer>> drawers_;  // by representation
     std::vector<Buffer> figure_blocks_;                   // by character
     Buffer frame_block_, instances_, commands_;

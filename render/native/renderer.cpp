@@ -15,11 +15,6 @@ namespace render::native {
 
 namespace {
 
-bool same_view(const View& a, const View& b) {
-    return a.width == b.width && a.height == b.height && a.position == b.position &&
-           a.clip_from_camera_relative == b.clip_from_camera_relative;
-}
-
 template <typename Work>
 void for_each_tile(std::size_t count, Work work) {
     tbb::parallel_for(

@@ -37,6 +37,7 @@ struct Corners {
 
 // The corners as a view sees them.
 struct ScreenCorners {
+    ScreenCorners() = default;
     explicit ScreenCorners(std::size_t count);
 
     hwy::AlignedFreeUniquePtr<std::int32_t[]> x, y;   // [1/256 px]; of no use where `sides` says clipped
