@@ -296,10 +296,6 @@ struct Blocks {
     int first_column, end_column, first_row, end_row;
 };
 
-struct Points {
-    VInt x[3], y[3];
-};
-
 // Blocks whose samples a span on the grid may hold, cut to [first, end).
 void block_range(VInt least, VInt most, int first, int end, VInt& from, VInt& to) {
     const Ints i;
@@ -317,18 +313,18 @@ std::uint32_t set_up_edges(const FacingTriangle* facing, const Blocks& tile, Edg
     const Words w;
     std::uint32_t alive = 0;
     for (int lane = 0; lane < group; lane += lanes) {
-        Points p;
+        VInt x[3], y[3];  // of corners
         VWords corners[3], faces;
         hn::LoadInterleaved4(w, facing[lane].corners, corners[0], corners[1], corners[2], faces);
         for (int k = 0; k < 3; ++k) {
             const auto packed = hn::BitCast(i, corners[k]);
-            p.x[k] = hn::ShiftRight<16>(hn::ShiftLeft<16>(packed));
-            p.y[k] = hn::ShiftRight<16>(packed);
+            x[k] = hn::ShiftRight<16>(hn::ShiftLeft<16>(packed));
+            y[k] = hn::ShiftRight<16>(packed);
         }
         VInt column, end_column, row, end_row;
-        block_range(hn::Min(p.x[0], hn::Min(p.x[1], p.x[2])), hn::Max(p.x[0], hn::Max(p.x[1], p.x[2])),
-                    tile.first_column, tile.end_column, column, end_column);
-        block_range(hn::Min(p.y[0], hn::Min(p.y[1], p.y[2])), hn::Max(p.y[0], hn::Max(p.y[1], p.y[2])), tile.first_row,
+        block_range(hn::Min(x[0], hn::Min(x[1], x[2])), hn::Max(x[0], hn::Max(x[1], x[2])), tile.first_column,
+                    tile.end_column, column, end_column);
+        block_range(hn::Min(y[0], hn::Min(y[1], y[2])), hn::Max(y[0], hn::Max(y[1], y[2])), tile.first_row,
                     tile.end_row, row, end_row);
         const auto some = hn::And(hn::Gt(end_column, column), hn::Gt(end_row, row));
         const std::uint32_t mask = bits_of(some);
@@ -343,16 +339,16 @@ std::uint32_t set_up_edges(const FacingTriangle* facing, const Blocks& tile, Edg
         const auto sample_x = hn::Add(hn::ShiftLeft<6>(column), hn::Set(i, grid_per_sample / 2));
         const auto sample_y = hn::Add(hn::ShiftLeft<6>(row), hn::Set(i, grid_per_sample / 2));
         const auto zero = hn::Zero(i);
-        const auto area = hn::Sub(hn::Mul(hn::Sub(p.x[1], p.x[0]), hn::Sub(p.y[2], p.y[0])),
-                                  hn::Mul(hn::Sub(p.y[1], p.y[0]), hn::Sub(p.x[2], p.x[0])));
+        const auto area = hn::Sub(hn::Mul(hn::Sub(x[1], x[0]), hn::Sub(y[2], y[0])),
+                                  hn::Mul(hn::Sub(y[1], y[0]), hn::Sub(x[2], x[0])));
         const auto over_area = hn::Div(hn::Set(f, 1.0f), hn::ConvertTo(f, area));
         hn::Store(hn::Mul(over_area, hn::Set(f, float{grid_per_sample})), f, out.scale + lane);
         for (int k = 0; k < 3; ++k) {
             const int from = (k + 1) % 3, to = (k + 2) % 3;
-            const auto along = hn::Sub(p.y[from], p.y[to]);
-            const auto down = hn::Sub(p.x[to], p.x[from]);
+            const auto along = hn::Sub(y[from], y[to]);
+            const auto down = hn::Sub(x[to], x[from]);
             const auto exact =
-                hn::Add(hn::Mul(along, hn::Sub(sample_x, p.x[from])), hn::Mul(down, hn::Sub(sample_y, p.y[from])));
+                hn::Add(hn::Mul(along, hn::Sub(sample_x, x[from])), hn::Mul(down, hn::Sub(sample_y, y[from])));
             const auto owns = hn::Or(hn::Gt(along, zero), hn::And(hn::Eq(along, zero), hn::Gt(down, zero)));
             const auto owned = hn::Sub(exact, hn::IfThenZeroElse(owns, hn::Set(i, 1)));
             const auto floor = hn::ShiftRight<4>(owned);

@@ -123,11 +123,14 @@ void clear(Cell& cell, int width, int height) {
 // A triangle in a cell, with what every vector of it needs.
 struct Setup {
     std::array<Edge, edge_count> edges;
-    std::array<hn::Vec<Ints>, edge_count> lane_values;  // what lanes' edges are beyond the first's
-    std::array<hn::Vec<Ints>, edge_count> step;         // to the next rows
-    EdgeValues to_most, to_least;                       // of a block, beyond its first pixel
+    hn::Vec<Ints> lane_values[edge_count];  // what lanes' edges are beyond the first's
+    hn::Vec<Ints> step[edge_count];         // to the next rows
+    EdgeValues to_most, to_least;           // of a block, beyond its first pixel
     float depth_x, depth_y;
     std::uint32_t surface;
+
+    // Arm's vectors have constructors, which only what is compiled for their instructions may call.
+    HWY_ATTR Setup() {}
 };
 
 // Rounding keeps order, so no pixel is nearer than the nearest corner of the block by the same formula.
