@@ -199,7 +199,7 @@ void CoverTile::stretch_row(int y, const float* nearness) {
     const int row = above - grid_.cells.y0;
     const CellRows rows{cells_.cover(row),        cells_.cover(row + 1),           cells_.nearness(row),
                         cells_.nearness(row + 1), grid_.cells.x1 - grid_.cells.x0, at - cell};
-    const auto column = [&](int pixel) { return std::clamp(pixel - grid_.tile.x0, 0, tile_side); };
+    const auto column = [&](int pixel) { return std::clamp(pixel - grid_.tile.x0, 0, grid_.tile.x1 - grid_.tile.x0); };
     const int first = column(grid_.pixels_of(touched.x0).first), end = column(grid_.pixels_of(touched.x1 - 1).end);
     constexpr int whole = 16;  // no vector is longer
     HWY_DYNAMIC_DISPATCH(StretchRow)
@@ -209,7 +209,7 @@ void CoverTile::stretch_row(int y, const float* nearness) {
 // The nearness of what hides people before the near layer, from the tile's first column on.
 const float* CoverTile::with_near(int y) {
     const Tile& tile = grid_.tile;
-    std::copy_n(behind_->depth.row(y) + tile.x0, tile_side, with_near_.begin());
+    std::copy_n(behind_->depth.row(y) + tile.x0, tile.x1 - tile.x0, with_near_.begin());
     const Rect& touched = near_->touched();
     for (int x = touched.x0 - tile.x0; x < touched.x1 - tile.x0; ++x)
         with_near_[x] = std::max(with_near_[x], near_->depth(y)[x]);
