@@ -17,9 +17,16 @@ constexpr float unit = 32767.0f;
 // Normals are stored as 127 = 1 and read as 32512 = 1.
 constexpr float normal_unit = 32767.0f / 32512.0f;
 
+template <typename T>
+void prefetch_all(const T& object) {
+    constexpr std::size_t line = 64;
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(&object);
+    for (std::size_t at = 0; at < sizeof object; at += line) hwy::Prefetch(bytes + at);
+}
+
 // To the nearest; the offset keeps what is cut off positive.
 std::int16_t fixed(float value, float one = unit) {
-    return static_cast<std::int16_t>(static_cast<int>(std::clamp(value * one, -unit, unit) + 32768.5f) - 32768);
+    return static_cast<std::int16_t>(static_cast<int>(std::min(std::max(value * one, -unit), unit) + 32768.5f) - 32768);
 }
 
 std::array<std::int16_t, 3> fixed(glm::vec3 value, float one = unit) {
@@ -211,6 +218,8 @@ void PointPeople::prepare(const View& view, double splat_size, std::span<const P
     bounds_.resize(people.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, people.size(), 256), [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            constexpr std::size_t ahead = 8;  // they lie anywhere
+            if (i + ahead < range.end()) prefetch_all(*people[i + ahead]);
             people_[i] = ready(view, *people[i], cell_);
             bounds_[i] = bounds_of(people_[i]);
         }
@@ -229,9 +238,11 @@ Rect PointPeople::bounds_of(const SplatPerson& person) const {
 }
 
 void SplatPerson::prefetch() const {
-    constexpr int line = 64;
-    const auto* bytes = reinterpret_cast<const std::uint8_t*>(first_chunk);
-    for (std::size_t at = 0; at < sizeof(PosedChunk); at += line) hwy::Prefetch(bytes + at);
+    prefetch_all(*this);
+}
+
+void SplatPerson::prefetch_points() const {
+    prefetch_all(*first_chunk);
 }
 
 void PointPeople::make_kind(std::uint32_t character) {

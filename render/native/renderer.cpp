@@ -133,8 +133,9 @@ void Renderer::draw_tile(std::size_t index) {
         others = others.subspan(mixed);
     }
     for (std::size_t i = 0; i < others.size(); ++i) {
-        constexpr std::size_t ahead = 2;
-        if (i + ahead < others.size()) points_.people()[others[i + ahead]].prefetch();
+        constexpr std::size_t soon = 6, very_soon = 2;
+        if (i + soon < others.size()) points_.people()[others[i + soon]].prefetch();
+        if (i + very_soon < others.size()) points_.people()[others[i + very_soon]].prefetch_points();
         draw_point_person(points_.people()[others[i]], easel, Layers::all);
     }
     easel.cover.resolve(picture_);

@@ -64,7 +64,9 @@ struct SplatPerson {
     }
     Rect cells() const { return {x0, y0, x1, y1}; }
     float nearest() const { return depth - reach; }  // [m] view depth
-    void prefetch() const;                           // the first points: they will be drawn soon
+    // They will be drawn soon; and very soon, so that this can be read.
+    void prefetch() const;
+    void prefetch_points() const;
 };
 
 // The same for everybody: 16384 = 1.

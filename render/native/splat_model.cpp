@@ -304,14 +304,16 @@ SplatModel::SlotLights SplatModel::lights(std::uint32_t pose, const Between& bet
     const float turn = diamond_of(to_sun.x, to_sun.z) * (sun_azimuths / 4.0f);
     const int below = std::min(static_cast<int>(turn), sun_azimuths - 1), above = (below + 1) % sun_azimuths;
     const float share = turn - static_cast<float>(below);
-    std::array<float, light_stride> sums{};
+    std::array<const std::uint16_t*, mixed_rows> rows;
+    std::array<float, mixed_rows> weights;
     for (int i = 0; i < 4; ++i) {
-        const std::uint16_t* from = lights_of(key_of_[pose], below, between.node[i]);
-        const std::uint16_t* to = lights_of(key_of_[pose], above, between.node[i]);
-        const float far = between.share[i] * share / light_unit, near = between.share[i] / light_unit - far;
-        for (int value = 0; value < light_stride; ++value)
-            sums[value] += near * static_cast<float>(from[value]) + far * static_cast<float>(to[value]);
+        rows[2 * i] = lights_of(key_of_[pose], below, between.node[i]);
+        rows[2 * i + 1] = lights_of(key_of_[pose], above, between.node[i]);
+        weights[2 * i + 1] = between.share[i] * share / light_unit;
+        weights[2 * i] = between.share[i] / light_unit - weights[2 * i + 1];
     }
+    std::array<float, mixed_values> sums;
+    mix(rows, weights, sums);
     SlotLights out;
     for (int value = 0; value < light_values; ++value) out[value / 3][value % 3] = sums[value];
     return out;

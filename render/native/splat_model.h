@@ -11,6 +11,7 @@
 #include "figures/figure.h"
 #include "render/native/array.h"
 #include "render/native/directions.h"
+#include "render/native/mix.h"
 #include "render/native/posed_chunk.h"
 #include "scene/light.h"
 
@@ -109,7 +110,8 @@ private:
         return chunk == 0 ? first_chunks_[pose] : other_chunks_[std::size_t{pose} * (chunks_ - 1) + chunk - 1];
     }
     // Of a look, [slot][channel], and one more.
-    static constexpr int light_values = (1 + model::slot_count) * 3, light_stride = (light_values + 7) / 8 * 8;
+    static constexpr int light_values = (1 + model::slot_count) * 3, light_stride = mixed_values;
+    static_assert(light_values <= light_stride);
     std::uint16_t* lights_of(std::uint32_t key, int azimuth, int node) {
         return &lights_[((std::size_t{key} * sun_azimuths + azimuth) * direction_nodes + node) * light_stride];
     }
