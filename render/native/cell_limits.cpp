@@ -126,8 +126,10 @@ void CellLimits::find_coarse(const CellGrid& grid, const BackdropPicture& behind
         const Span rows = grid.pixels_of(cell);
         // Outside of the picture is nothing that anybody could be seen through.
         std::fill(farthest_.begin(), farthest_.end(), infinite);
-        std::fill(farthest_with_near_.begin(), farthest_with_near_.end(), infinite);
-        std::fill(least_near_.begin(), least_near_.end(), 0.0f);
+        if (near) {
+            std::fill(farthest_with_near_.begin(), farthest_with_near_.end(), infinite);
+            std::fill(least_near_.begin(), least_near_.end(), 0.0f);
+        }
         for (int y = std::max(rows.first, 0); y < std::min(rows.end, behind.height); ++y) {
             const float* backdrop = behind.depth.row(y) + left;
             lower(farthest_.data() + inset, backdrop, width);

@@ -120,6 +120,7 @@ void Renderer::draw_tile(std::size_t index) {
     std::span<const std::uint32_t> others = point_lists_.of(index);
     Easel& easel = easels_.local();
     const float far_end = draw_near(index, easel);  // 0: nobody is near
+    if (others.empty() && far_end == 0) return show_backdrop(tile);
     easel.cover.begin(tile, behind_, points_.cell(), far_end > 0 ? &easel.near : nullptr);
     if (far_end > 0) {
         // Who may be in front of somebody near comes before them and, for what is behind, once more after them.
@@ -139,6 +140,11 @@ void Renderer::draw_tile(std::size_t index) {
         draw_point_person(points_.people()[others[i]], easel, Layers::all);
     }
     easel.cover.resolve(picture_);
+}
+
+void Renderer::show_backdrop(const Tile& tile) {
+    for (int y = tile.y0; y < tile.y1; ++y)
+        std::copy_n(behind_.color.row(y) + tile.x0, tile.x1 - tile.x0, picture_.row(y) + tile.x0);
 }
 
 // Returns how far back [m] they reach; 0: there is nobody.

@@ -56,6 +56,7 @@ private:
     void sort_by_depth(std::vector<const Person*>& people);
     void fill_lists();
     void draw_tile(std::size_t index);
+    void show_backdrop(const Tile& tile);
     float draw_near(std::size_t tile, Easel& easel) const;
     void draw_point_person(const SplatPerson& person, Easel& easel, Layers layers) const;
 
