@@ -158,7 +158,7 @@ void CoverTile::begin(const Tile& tile, const BackdropPicture& behind, float cel
     near_ = near;
     is_near_laid_ = false;
     cells_.begin(grid_.cells, grid_.is_coarse());
-    limits_.find(grid_, behind, near);
+    has_limits_ = false;
     if (grid_.is_coarse()) find_columns();
 }
 
@@ -172,6 +172,8 @@ void CoverTile::find_columns() {
 }
 
 void CoverTile::lay(const SplatPerson& person, const Patch& patch, Layers layers) {
+    if (!has_limits_) limits_.find(grid_, *behind_, near_);
+    has_limits_ = true;
     cells_.lay(person, patch,
                {layers == Layers::before_near ? &limits_.before_near() : &limits_.backdrop(),
                 layers == Layers::behind_near ? &limits_.behind_near() : nullptr});
@@ -272,9 +274,8 @@ const Cover* CoverTile::pixel_row(int y) {
 
 void CoverTile::resolve(Plane<std::uint32_t>& out) {
     const Tile& tile = grid_.tile;
-    for (int y = tile.y0; y < tile.y1; ++y)
-        HWY_DYNAMIC_DISPATCH(ResolveRow)
-        (pixel_row(y), behind_->color.row(y) + tile.x0, out.row(y) + tile.x0, tile.x1 - tile.x0);
+    for (int y = tile.y0; y < tile.y1; ++y) HWY_DYNAMIC_DISPATCH(ResolveRow)
+    (pixel_row(y), behind_->color.row(y) + tile.x0, out.row(y) + tile.x0, tile.x1 - tile.x0);
 }
 
 }  // namespace render::native

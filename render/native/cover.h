@@ -62,6 +62,7 @@ private:
     const NearLayer* near_ = nullptr;
     CoverCells cells_;
     CellLimits limits_;
+    bool has_limits_ = false;  // they are found when somebody is laid
     CellColumns columns_;
     // Of coarse cells:
     Array<Cover> kept_;  // pixels, down to the near layer, once that is laid
