@@ -120,16 +120,13 @@ void CellLimits::find_coarse(const CellGrid& grid, const BackdropPicture& behind
     const int left = std::max(windows.first(), 0), right = std::min(windows.first() + windows.width(), behind.width);
     const int inset = left - windows.first(), width = std::max(right - left, 0);
     const auto size = static_cast<std::size_t>(windows.width()) + row_alignment;
-    farthest_.resize(size), farthest_with_near_.resize(size), least_near_.resize(size), with_near_.resize(size);
+    farthest_.resize(size), farthest_with_near_.resize(size), with_near_.resize(size);
     for (int cell = grid.cells.y0; cell < grid.cells.y1; ++cell) {
         const int row = cell - grid.cells.y0, columns = grid.cells.x1 - grid.cells.x0;
         const Span rows = grid.pixels_of(cell);
         // Outside of the picture is nothing that anybody could be seen through.
         std::fill(farthest_.begin(), farthest_.end(), infinite);
-        if (near) {
-            std::fill(farthest_with_near_.begin(), farthest_with_near_.end(), infinite);
-            std::fill(least_near_.begin(), least_near_.end(), 0.0f);
-        }
+        std::fill(farthest_with_near_.begin(), farthest_with_near_.end(), infinite);
         for (int y = std::max(rows.first, 0); y < std::min(rows.end, behind.height); ++y) {
             const float* backdrop = behind.depth.row(y) + left;
             lower(farthest_.data() + inset, backdrop, width);
@@ -138,11 +135,8 @@ void CellLimits::find_coarse(const CellGrid& grid, const BackdropPicture& behind
             std::copy_n(backdrop, width, with_near_.begin());
             if (y >= touched.y0 && y < touched.y1) {
                 const float* depth = near->depth(y);
-                for (int x = touched.x0; x < touched.x1; ++x) {
-                    const float nearness = depth[x - grid.tile.x0];
-                    with_near_[x - left] = std::max(with_near_[x - left], nearness);
-                    least_near_[x - windows.first()] = std::min(least_near_[x - windows.first()], -nearness);
-                }
+                for (int x = touched.x0; x < touched.x1; ++x)
+                    with_near_[x - left] = std::max(with_near_[x - left], depth[x - grid.tile.x0]);
             }
             lower(farthest_with_near_.data() + inset, with_near_.data(), width);
         }
@@ -150,11 +144,9 @@ void CellLimits::find_coarse(const CellGrid& grid, const BackdropPicture& behind
         windows.find_least(farthest_.data(), cells);
         find_metres(cells, cells, columns);
         if (!near) continue;
-        float *before = before_near_.at(0, row), *after = behind_near_.at(0, row);
+        float* before = before_near_.at(0, row);
         windows.find_least(farthest_with_near_.data(), before);
         find_metres(before, before, columns);
-        windows.find_least(least_near_.data(), after);
-        for (int i = 0; i < columns; ++i) after[i] = after[i] < 0 ? before[i] : infinite;
     }
 }
 

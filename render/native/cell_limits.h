@@ -18,7 +18,7 @@ public:
     // [m] Who is farther is hidden in all pixels that take from the cell: by the backdrop, or by it or the near layer.
     const CellPlane<float>& backdrop() const { return backdrop_; }
     const CellPlane<float>& before_near() const { return before_near_; }
-    // [m] Who is nearer is before the near layer, or beside it.
+    // [m] Who is nearer is before the near layer, or beside it. Of fine cells only: coarse ones hold both.
     const CellPlane<float>& behind_near() const { return behind_near_; }
 
 private:
@@ -27,8 +27,7 @@ private:
 
     CellPlane<float> backdrop_, before_near_, behind_near_;
     // Of a row of pixels around the tile, near_plane / view depth: what is least among some rows.
-    Array<float> farthest_, farthest_with_near_, least_near_;
-    Array<float> with_near_;
+    Array<float> farthest_, farthest_with_near_, with_near_;
 };
 
 }  // namespace render::native

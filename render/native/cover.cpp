@@ -25,6 +25,12 @@ struct CellRows {
     float share;
 };
 
+// One that lies between. Depths are told by floats: of little coverage, rounded, they couldn't be.
+struct CellLine {
+    Cover* cover;
+    float *share, *nearness;
+};
+
 }  // namespace render::native
 
 #endif
@@ -46,12 +52,18 @@ Floats part(hn::Vec<decltype(shorts)> fixed) {
     return hn::ConvertTo(floats, hn::PromoteTo(ints, fixed));
 }
 
+Floats shares_of(const Cover* cells) {
+    hn::Vec<decltype(shorts)> light[3], share;
+    hn::LoadInterleaved4(shorts, &cells->red, light[0], light[1], light[2], share);
+    return part(share);
+}
+
 }  // namespace
 
 // Pixels out of cells, first down and then across; those that are nearer than the mean of what covers them are left
-// open. `line` and `nearness_line` have room for all cells.
+// open.
 void StretchRow(const CellRows& rows, const CellColumns& columns, const float* nearness, int first, int end,
-                Cover* line, float* nearness_line, Cover* to) {
+                const CellLine& line, Cover* to) {
     const auto lanes_of = [](const Cover* cover) { return reinterpret_cast<const std::int16_t*>(cover); };
     const auto between = [](auto a, auto b, auto share)
                              HWY_ATTR { return hn::Add(a, hn::MulFixedPoint15(hn::Sub(b, a), share)); };
@@ -61,15 +73,17 @@ void StretchRow(const CellRows& rows, const CellColumns& columns, const float* n
     for (int i = 0; i < rows.cells; i += 2)
         hn::StoreU(between(hn::LoadU(two_cells, lanes_of(rows.above + i)),
                            hn::LoadU(two_cells, lanes_of(rows.below + i)), down),
-                   two_cells, reinterpret_cast<std::int16_t*>(line + i));
-    for (int i = 0; i < rows.cells; i += step)
-        hn::StoreU(mean(hn::LoadU(floats, rows.nearness_above + i), hn::LoadU(floats, rows.nearness_below + i),
-                        hn::Set(floats, rows.share)),
-                   floats, nearness_line + i);
+                   two_cells, reinterpret_cast<std::int16_t*>(line.cover + i));
+    for (int i = 0; i < rows.cells; i += step) {
+        const auto share = hn::Set(floats, rows.share);
+        hn::StoreU(mean(shares_of(rows.above + i), shares_of(rows.below + i), share), floats, line.share + i);
+        hn::StoreU(mean(hn::LoadU(floats, rows.nearness_above + i), hn::LoadU(floats, rows.nearness_below + i), share),
+                   floats, line.nearness + i);
+    }
     for (int x = first; x < end; x += 2) {
         const hn::Repartition<std::uint64_t, decltype(two_cells)> words;
         const auto load = [&](int pixel) HWY_ATTR {
-            return hn::BitCast(words, hn::LoadU(two_cells, lanes_of(line + columns.cell[pixel])));
+            return hn::BitCast(words, hn::LoadU(two_cells, lanes_of(line.cover + columns.cell[pixel])));
         };
         const auto one = load(x), other = load(x + 1);
         hn::StoreU(between(hn::BitCast(two_cells, hn::InterleaveLower(words, one, other)),
@@ -78,13 +92,15 @@ void StretchRow(const CellRows& rows, const CellColumns& columns, const float* n
                    two_cells, reinterpret_cast<std::int16_t*>(to + x));
     }
     for (int x = first; x < end; x += step) {
+        const auto cell = hn::LoadU(ints, &columns.cell[x]);
+        const auto across = [&](const float* of) HWY_ATTR {
+            return mean(hn::GatherIndex(floats, of, cell), hn::GatherIndex(floats, of + 1, cell),
+                        hn::LoadU(floats, &columns.share[x]));
+        };
+        const auto hidden = hn::Lt(across(line.nearness), hn::Mul(hn::LoadU(floats, nearness + x), across(line.share)));
+        if (hn::AllFalse(floats, hidden)) continue;
         hn::Vec<decltype(shorts)> light[3], share;
         hn::LoadInterleaved4(shorts, &to[x].red, light[0], light[1], light[2], share);
-        const auto cell = hn::LoadU(ints, &columns.cell[x]);
-        const auto near = mean(hn::GatherIndex(floats, nearness_line, cell),
-                               hn::GatherIndex(floats, nearness_line + 1, cell), hn::LoadU(floats, &columns.share[x]));
-        const auto hidden = hn::Lt(near, hn::Mul(hn::LoadU(floats, nearness + x), part(share)));
-        if (hn::AllFalse(floats, hidden)) continue;
         const auto show = [&](auto lane) HWY_ATTR {
             return hn::DemoteTo(shorts, hn::IfThenZeroElse(hn::RebindMask(ints, hidden), hn::PromoteTo(ints, lane)));
         };
@@ -134,11 +150,13 @@ HWY_EXPORT(ResolveRow);
 
 namespace {
 
-// Lays light and coverage of which `one` = 1 behind what is there.
-void lay_behind(const std::uint16_t* rgba, int one_bits, Cover& there) {
-    const int open = cover_full - std::min(there.share, cover_full), half = 1 << (one_bits - 1);
+constexpr int near_full = 32767;  // NearLayer::rgba
+
+// Lays light and coverage of a near layer behind what is there.
+void lay_behind(const std::uint16_t* rgba, Cover& there) {
+    const int open = cover_full - std::min(there.share, cover_full);
     const auto more = [&](std::uint16_t& lane, int value) {
-        lane = static_cast<std::uint16_t>(lane + ((value * open + half) >> one_bits));
+        lane = static_cast<std::uint16_t>(lane + ((value * open + (1 << 14)) >> 15));
     };
     more(there.red, rgba[0]), more(there.green, rgba[1]), more(there.blue, rgba[2]), more(there.share, rgba[3]);
 }
@@ -146,9 +164,11 @@ void lay_behind(const std::uint16_t* rgba, int one_bits, Cover& there) {
 }  // namespace
 
 CoverTile::CoverTile()
-    : kept_(std::size_t{tile_side} * tile_side),
+    : before_(std::size_t{tile_side} * tile_side),
+      kept_(before_.size()),
       row_(tile_side),
       line_(CellPlane<Cover>::stride),
+      share_line_(CellPlane<float>::stride),
       nearness_line_(CellPlane<float>::stride),
       with_near_(tile_side) {}
 
@@ -174,9 +194,10 @@ void CoverTile::find_columns() {
 void CoverTile::lay(const SplatPerson& person, const Patch& patch, Layers layers) {
     if (!has_limits_) limits_.find(grid_, *behind_, near_);
     has_limits_ = true;
+    const CellPlane<float>* behind_near =
+        layers == Layers::behind_near && !grid_.is_coarse() ? &limits_.behind_near() : nullptr;
     cells_.lay(person, patch,
-               {layers == Layers::before_near ? &limits_.before_near() : &limits_.backdrop(),
-                layers == Layers::behind_near ? &limits_.behind_near() : nullptr});
+               {layers == Layers::before_near ? &limits_.before_near() : &limits_.backdrop(), behind_near});
 }
 
 void CoverTile::lay_near() {
@@ -188,7 +209,7 @@ void CoverTile::lay_near() {
 void CoverTile::lay_near_row(int y, Cover* to) const {
     const Rect& touched = near_->touched();
     for (int x = touched.x0 - grid_.tile.x0; x < touched.x1 - grid_.tile.x0; ++x)
-        lay_behind(near_->rgba(y) + 4 * x, 15, to[x]);
+        lay_behind(near_->rgba(y) + 4 * x, to[x]);
 }
 
 // A row of pixels out of the cells, where they are nearer than what a row of nearness says.
@@ -205,7 +226,8 @@ void CoverTile::stretch_row(int y, const float* nearness) {
     const int first = column(grid_.pixels_of(touched.x0).first), end = column(grid_.pixels_of(touched.x1 - 1).end);
     constexpr int whole = 16;  // no vector is longer
     HWY_DYNAMIC_DISPATCH(StretchRow)
-    (rows, columns_, nearness, first / whole * whole, end, line_.data(), nearness_line_.data(), row_.data());
+    (rows, columns_, nearness, first / whole * whole, end, {line_.data(), share_line_.data(), nearness_line_.data()},
+     row_.data());
 }
 
 // The nearness of what hides people before the near layer, from the tile's first column on.
@@ -222,19 +244,11 @@ void CoverTile::lay_near_on_pixels() {
     const Tile& tile = grid_.tile;
     const Rect& touched = near_->touched();
     for (int y = tile.y0; y < tile.y1; ++y) {
-        Cover* to = kept_row(y);
-        const float* backdrop = behind_->depth.row(y) + tile.x0;
         const bool is_touched = y >= touched.y0 && y < touched.y1;
-        stretch_row(y, is_touched ? with_near(y) : backdrop);
-        std::copy(row_.begin(), row_.end(), to);
-        if (!is_touched) continue;
-        std::bitset<tile_side> before;
-        for (int x = 0; x < tile_side; ++x) before[x] = to[x].share > 0;
-        lay_near_row(y, to);
-        // Cells that are before the layer elsewhere, and behind it here.
-        stretch_row(y, backdrop);
-        for (int x = 0; x < tile_side; ++x)
-            if (!before[x]) lay_behind(&row_[x].red, 14, to[x]);
+        stretch_row(y, is_touched ? with_near(y) : behind_->depth.row(y) + tile.x0);
+        std::copy(row_.begin(), row_.end(), row_of(before_, y));
+        std::copy(row_.begin(), row_.end(), row_of(kept_, y));
+        if (is_touched) lay_near_row(y, row_of(kept_, y));
     }
     is_near_laid_ = true;
     cells_.begin(grid_.cells, true);
@@ -252,7 +266,7 @@ void CoverTile::close_full_cells() {
         std::bitset<tile_side> open;
         for (int y = ys.first; y < ys.end; ++y)
             for (int x = 0; x < tile.x1 - tile.x0; ++x)
-                if (kept_row(y)[x].share <= cover_full - closed) open.set(x);
+                if (row_of(kept_, y)[x].share <= cover_full - closed) open.set(x);
         for (int column = grid_.cells.x0; column < grid_.cells.x1; ++column) {
             const Span xs = within(grid_.pixels_of(column), tile.x0, tile.x1);
             bool is_open = false;
@@ -267,8 +281,23 @@ const Cover* CoverTile::pixel_row(int y) {
     if (!grid_.is_coarse()) return cells_.cover(y - grid_.cells.y0);
     stretch_row(y, behind_->depth.row(y) + grid_.tile.x0);
     if (!is_near_laid_) return row_.data();
-    Cover* kept = kept_row(y);
-    for (int x = 0; x < tile_side; ++x) lay_behind(&row_[x].red, 14, kept[x]);
+    // All who are in the cells now are those before the near layer, and others behind them; of these, what it leaves.
+    const Tile& tile = grid_.tile;
+    const Rect& touched = near_->touched();
+    Cover* kept = row_of(kept_, y);
+    const Cover* before = row_of(before_, y);
+    for (int x = 0; x < tile.x1 - tile.x0; ++x) {
+        const bool is_touched =
+            y >= touched.y0 && y < touched.y1 && x >= touched.x0 - tile.x0 && x < touched.x1 - tile.x0;
+        const int open = near_full - (is_touched ? near_->rgba(y)[4 * x + 3] : 0);
+        const auto add = [&](std::uint16_t all, std::uint16_t front, std::uint16_t& to) {
+            to = static_cast<std::uint16_t>(to + std::max(all - front, 0) * open / near_full);
+        };
+        add(row_[x].red, before[x].red, kept[x].red);
+        add(row_[x].green, before[x].green, kept[x].green);
+        add(row_[x].blue, before[x].blue, kept[x].blue);
+        add(row_[x].share, before[x].share, kept[x].share);
+    }
     return kept;
 }
 

@@ -55,7 +55,9 @@ private:
     void lay_near_on_pixels();
     void close_full_cells();
     const Cover* pixel_row(int y);
-    Cover* kept_row(int y) { return &kept_[static_cast<std::size_t>(tile_side) * (y - grid_.tile.y0)]; }
+    Cover* row_of(Array<Cover>& pixels, int y) {
+        return &pixels[static_cast<std::size_t>(tile_side) * (y - grid_.tile.y0)];
+    }
 
     CellGrid grid_;
     const BackdropPicture* behind_ = nullptr;
@@ -64,11 +66,12 @@ private:
     CellLimits limits_;
     bool has_limits_ = false;  // they are found when somebody is laid
     CellColumns columns_;
-    // Of coarse cells:
-    Array<Cover> kept_;  // pixels, down to the near layer, once that is laid
+    // Of coarse cells, once the near layer is laid: pixels of what is before it, and of that and the layer. The cells
+    // begin anew then, with everybody, so that what is before it can be told from the rest.
+    Array<Cover> before_, kept_;
     Array<Cover> row_;   // of pixels
     Array<Cover> line_;  // of cells
-    Array<float> nearness_line_, with_near_;
+    Array<float> share_line_, nearness_line_, with_near_;
     bool is_near_laid_ = false;
 };
 

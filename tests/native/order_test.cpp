@@ -87,7 +87,7 @@ render::View view_of(double distance) {
     return render::make_view({eye, eye + glm::dvec3(0, 0, 1), fov}, width, height);
 }
 
-render::Person person_of(const Who& who, const render::View& view) {
+render::Person person_of(const Who& who, const render::View& view, double splat_size) {
     const Dummy& model = dummy(who.color);
     render::Person person{};
     person.instance.position = glm::vec3(who.aside, -model.poses.box.center().y, origin_depth(who));
@@ -101,8 +101,8 @@ render::Person person_of(const Who& who, const render::View& view) {
     const auto by = [&](const figures::Representation& one) { return !one.is_mesh; };
     const auto all = figures::natively().representations;
     person.representation = static_cast<std::uint32_t>(std::ranges::find_if(all, by) - all.begin());
-    const double pixels = view.pixels_per_metre(person.depth);
-    const auto demand = static_cast<float>(1.2 * model.poses.area * pixels * pixels);
+    const double splats = view.pixels_per_metre(person.depth) / splat_size;  // a metre
+    const auto demand = static_cast<float>(1.2 * model.poses.area * splats * splats);
     const figures::Part part = figures::part_of(figures::native_points.levels(model.figure()).back(), demand);
     person.count = part.count;
     person.last_share = part.last_share;
@@ -141,14 +141,16 @@ scene::StaticMesh wall(const render::View& view, double depth, double left = -2,
 
 class Stage {
 public:
-    explicit Stage(double distance, const scene::StaticMesh& structure = {})
-        : view_(view_of(distance)), renderer_(structure, {}, even_light(), figures(), width, height) {}
+    explicit Stage(double distance, const scene::StaticMesh& structure = {}, double splat_size = 1)
+        : view_(view_of(distance)),
+          splat_size_(splat_size),
+          renderer_(structure, {}, even_light(), figures(), width, height) {}
 
     Seen look_at(const std::vector<Who>& people) {
         render::Frame frame;
         frame.view = view_;
-        frame.splat_size = 1;
-        for (const Who& who : people) frame.people.push_back(person_of(who, view_));
+        frame.splat_size = splat_size_;
+        for (const Who& who : people) frame.people.push_back(person_of(who, view_, splat_size_));
         renderer_.begin(view_);
         renderer_.draw(frame);
         const std::vector<std::uint8_t> pixels = renderer_.read_image().pixels;
@@ -170,6 +172,7 @@ private:
     static std::vector<figures::Figure> figures() { return {dummy(red).figure(), dummy(blue).figure()}; }
 
     render::View view_;
+    double splat_size_;
     render::native::Renderer renderer_;
 };
 
@@ -276,5 +279,65 @@ TEST_P(Order, OfTwoTheNearerHidesTheFarther) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Metres, Order, testing::ValuesIn(distances));
+
+// Cells that are larger than pixels, by S [px]: hardly, a little, no whole number, and far.
+class CoarseOrder : public testing::TestWithParam<double> {
+protected:
+    static constexpr double distance = 50;
+    static constexpr Who whom{red, As::points, distance};
+    static Stage stage(const scene::StaticMesh& structure = {}) { return Stage(distance, structure, GetParam()); }
+};
+
+TEST_P(CoarseOrder, CellsHardlyLargerThanPixelsShowWhatPixelsDo) {
+    if (GetParam() > 1.01) GTEST_SKIP() << "larger";
+    const double off = (GetParam() - 1) * (width + height);  // [of 1] so far the last cells are aside of their pixels
+    const Seen fine = Stage(distance).look_at({whom}), coarse = stage().look_at({whom});
+    for (std::size_t i = 0; i < fine.red.size(); ++i)
+        ASSERT_NEAR(share(coarse.red[i]), share(fine.red[i]), off) << "pixel " << i;
+}
+
+TEST_P(CoarseOrder, NobodyLosesAnythingInBetween) {
+    const double fine = sum(Stage(distance).look_at({whom}).red), coarse = sum(stage().look_at({whom}).red);
+    EXPECT_NEAR(coarse, fine, 0.04 * fine);
+}
+
+TEST_P(CoarseOrder, AWallHidesWhoIsBehindItAndNobodyInFront) {
+    const render::View view = view_of(distance);
+    const Seen alone = stage().look_at({whom});
+    EXPECT_EQ(lit(stage(wall(view, distance - gap_to_wall)).look_at({whom}).red), 0);
+    const std::vector<std::uint8_t> seen = stage(wall(view, backmost(whom) + gap_to_wall)).look_at({whom}).red;
+    for (std::size_t i = 0; i < seen.size(); ++i)
+        ASSERT_NEAR(share(seen[i]), share(alone.red[i]), dust) << "in front of the wall, pixel " << i;
+}
+
+TEST_P(CoarseOrder, AWallsEdgeCutsWhomItHidesPixelByPixel) {
+    for (const double edge : {-0.05, 0.0, 0.03}) {
+        std::vector<std::uint8_t> expected = stage().look_at({whom}).red;
+        const int end = static_cast<int>(std::lround((1 + edge) * width / 2));
+        for (std::size_t i = 0; i < expected.size(); ++i)
+            if (static_cast<int>(i % width) < end) expected[i] = 0;
+        const double at = 2.0 * end / width - 1;
+        EXPECT_EQ(stage(wall(view_of(distance), distance - gap_to_wall, -2, at)).look_at({whom}).red, expected) << at;
+    }
+}
+
+TEST_P(CoarseOrder, NearPeopleComeInBetweenPixelByPixel) {
+    constexpr double rounding = 0.015;  // as of two people above
+    Stage both = stage();
+    const Who near{blue, As::triangles, backmost(whom) + gap_to_other, 0.3};
+    const Who behind{red, As::points, backmost(near) + gap_to_other, 0.5};
+    const Seen before = both.look_at({whom, near}), after = both.look_at({near, behind});
+    const Seen near_alone = both.look_at({near});
+    EXPECT_EQ(before.red, both.look_at({whom}).red) << "points before triangles";
+    EXPECT_EQ(after.blue, near_alone.blue) << "triangles before points";
+    const Seen behind_alone = both.look_at({behind});
+    for (std::size_t i = 0; i < after.red.size(); ++i) {
+        const double n = share(near_alone.blue[i]);
+        EXPECT_NEAR(share(after.red[i]), share(behind_alone.red[i]) * (1 - n), rounding) << "pixel " << i;
+        EXPECT_NEAR(share(before.blue[i]), n * (1 - share(before.red[i])), rounding) << "pixel " << i;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Pixels, CoarseOrder, testing::Values(1.0001, 1.4, 2.0, 3.7));
 
 }  // namespace
