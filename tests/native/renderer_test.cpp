@@ -96,13 +96,14 @@ TEST(NativeRenderer, DrawsTheSameOnEveryInstructionSet) {
 }
 
 TEST(NativeRenderer, DrawsTheSameOnAnyNumberOfThreads) {
-    for (const Shot& shot : presets(points_of(0.8))) {
-        const render::Image expected = shoot(shot);
-        for (const int threads : {1, 2, 3, 8}) {
-            tbb::task_arena arena(threads);
-            arena.execute([&] { EXPECT_EQ(shoot(shot).pixels, expected.pixels) << threads << " threads"; });
+    for (const double splat_size : {0.8, 2.5})
+        for (const Shot& shot : presets(points_of(splat_size))) {
+            const render::Image expected = shoot(shot);
+            for (const int threads : {1, 2, 3, 8}) {
+                tbb::task_arena arena(threads);
+                arena.execute([&] { EXPECT_EQ(shoot(shot).pixels, expected.pixels) << threads << " threads"; });
+            }
         }
-    }
 }
 
 // Where the stands hide most of the people in them.
