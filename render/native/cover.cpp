@@ -52,6 +52,15 @@ Floats part(hn::Vec<decltype(shorts)> fixed) {
     return hn::ConvertTo(floats, hn::PromoteTo(ints, fixed));
 }
 
+// The last of each four lanes, in all of them.
+template <typename Vector>
+Vector shares_of_pixels(Vector v) {
+    const hn::DFromV<Vector> lanes;
+    alignas(16) static constexpr std::uint8_t from[16] = {6, 7, 6, 7, 6, 7, 6, 7, 14, 15, 14, 15, 14, 15, 14, 15};
+    const hn::Repartition<std::uint8_t, decltype(lanes)> bytes;
+    return hn::TableLookupBytes(v, hn::BitCast(lanes, hn::LoadU(bytes, from)));
+}
+
 Floats shares_of(const Cover* cells) {
     hn::Vec<decltype(shorts)> light[3], share;
     hn::LoadInterleaved4(shorts, &cells->red, light[0], light[1], light[2], share);
@@ -108,6 +117,36 @@ void StretchRow(const CellRows& rows, const CellColumns& columns, const float* n
     }
 }
 
+// Lays a row of a near layer behind what is there; NearLayer::rgba, 32767 = 1.
+void LayNearRow(const std::uint16_t* rgba, Cover* there, int count) {
+    int x = 0;
+    const auto lay = [&](auto lanes) HWY_ATTR {
+        auto* to = reinterpret_cast<std::int16_t*>(there + x);
+        const auto before = hn::LoadU(lanes, to);
+        const auto open = hn::Max(hn::Sub(hn::Set(lanes, cover_full), shares_of_pixels(before)), hn::Zero(lanes));
+        const auto light = hn::LoadU(lanes, reinterpret_cast<const std::int16_t*>(rgba) + 4 * x);
+        hn::StoreU(hn::SaturatedAdd(before, hn::MulFixedPoint15(light, open)), lanes, to);
+    };
+    for (; x + 2 <= count; x += 2) lay(two_cells);
+    if (x < count) lay(hn::FixedTag<std::int16_t, 4>());
+}
+
+// Adds what a row holds beyond what was before a near layer, as far as that leaves it open; `rgba`: null where it
+// covers nothing.
+void AddBeyondRow(const Cover* all, const Cover* before, const std::uint16_t* rgba, Cover* there, int count) {
+    int x = 0;
+    const auto add = [&](auto lanes) HWY_ATTR {
+        const auto load = [&](const auto* from)
+                              HWY_ATTR { return hn::LoadU(lanes, reinterpret_cast<const std::int16_t*>(from)); };
+        auto more = hn::Max(hn::Sub(load(all + x), load(before + x)), hn::Zero(lanes));
+        if (rgba)
+            more = hn::MulFixedPoint15(more, hn::Sub(hn::Set(lanes, 32767), shares_of_pixels(load(rgba + 4 * x))));
+        hn::StoreU(hn::SaturatedAdd(load(there + x), more), lanes, reinterpret_cast<std::int16_t*>(there + x));
+    };
+    for (; x + 2 <= count; x += 2) add(two_cells);
+    if (x < count) add(hn::FixedTag<std::int16_t, 4>());
+}
+
 void ResolveRow(const Cover* cover, const std::uint32_t* behind, std::uint32_t* to, int count) {
     const hn::Rebind<std::uint32_t, decltype(floats)> words;
     const auto byte = hn::Set(words, 255u);
@@ -146,22 +185,9 @@ HWY_AFTER_NAMESPACE();
 namespace render::native {
 
 HWY_EXPORT(StretchRow);
+HWY_EXPORT(LayNearRow);
+HWY_EXPORT(AddBeyondRow);
 HWY_EXPORT(ResolveRow);
-
-namespace {
-
-constexpr int near_full = 32767;  // NearLayer::rgba
-
-// Lays light and coverage of a near layer behind what is there.
-void lay_behind(const std::uint16_t* rgba, Cover& there) {
-    const int open = cover_full - std::min(there.share, cover_full);
-    const auto more = [&](std::uint16_t& lane, int value) {
-        lane = static_cast<std::uint16_t>(lane + ((value * open + (1 << 14)) >> 15));
-    };
-    more(there.red, rgba[0]), more(there.green, rgba[1]), more(there.blue, rgba[2]), more(there.share, rgba[3]);
-}
-
-}  // namespace
 
 CoverTile::CoverTile()
     : before_(std::size_t{tile_side} * tile_side),
@@ -208,8 +234,8 @@ void CoverTile::lay_near() {
 // `to`: from the tile's first column on.
 void CoverTile::lay_near_row(int y, Cover* to) const {
     const Rect& touched = near_->touched();
-    for (int x = touched.x0 - grid_.tile.x0; x < touched.x1 - grid_.tile.x0; ++x)
-        lay_behind(near_->rgba(y) + 4 * x, to[x]);
+    const int first = touched.x0 - grid_.tile.x0;
+    HWY_DYNAMIC_DISPATCH(LayNearRow)(near_->rgba(y) + 4 * first, to + first, touched.x1 - touched.x0);
 }
 
 // A row of pixels out of the cells, where they are nearer than what a row of nearness says.
@@ -258,19 +284,20 @@ void CoverTile::lay_near_on_pixels() {
 // Those of which no pixel that takes from them is open.
 void CoverTile::close_full_cells() {
     const Tile& tile = grid_.tile;
-    const auto within = [](Span span, int first, int end) {
-        return Span{std::max(span.first, first), std::min(span.end, end)};
-    };
+    const int width = tile.x1 - tile.x0, height = tile.y1 - tile.y0;
+    std::array<std::bitset<tile_side>, tile_side> open;
+    for (int y = 0; y < height; ++y) {
+        const Cover* kept = row_of(kept_, tile.y0 + y);
+        for (int x = 0; x < width; ++x) open[y][x] = kept[x].share <= cover_full - closed;
+    }
     for (int row = grid_.cells.y0; row < grid_.cells.y1; ++row) {
-        const Span ys = within(grid_.pixels_of(row), tile.y0, tile.y1);
-        std::bitset<tile_side> open;
-        for (int y = ys.first; y < ys.end; ++y)
-            for (int x = 0; x < tile.x1 - tile.x0; ++x)
-                if (row_of(kept_, y)[x].share <= cover_full - closed) open.set(x);
+        const Span ys = grid_.pixels_of(row);
+        std::bitset<tile_side> any;
+        for (int y = std::max(ys.first - tile.y0, 0); y < std::min(ys.end - tile.y0, height); ++y) any |= open[y];
         for (int column = grid_.cells.x0; column < grid_.cells.x1; ++column) {
-            const Span xs = within(grid_.pixels_of(column), tile.x0, tile.x1);
+            const Span xs = grid_.pixels_of(column);
             bool is_open = false;
-            for (int x = xs.first; x < xs.end && !is_open; ++x) is_open = open[x - tile.x0];
+            for (int x = std::max(xs.first - tile.x0, 0); x < std::min(xs.end - tile.x0, width); ++x) is_open |= any[x];
             if (!is_open) cells_.close(column - grid_.cells.x0, row - grid_.cells.y0);
         }
     }
@@ -282,22 +309,22 @@ const Cover* CoverTile::pixel_row(int y) {
     stretch_row(y, behind_->depth.row(y) + grid_.tile.x0);
     if (!is_near_laid_) return row_.data();
     // All who are in the cells now are those before the near layer, and others behind them; of these, what it leaves.
-    const Tile& tile = grid_.tile;
     const Rect& touched = near_->touched();
     Cover* kept = row_of(kept_, y);
     const Cover* before = row_of(before_, y);
-    for (int x = 0; x < tile.x1 - tile.x0; ++x) {
-        const bool is_touched =
-            y >= touched.y0 && y < touched.y1 && x >= touched.x0 - tile.x0 && x < touched.x1 - tile.x0;
-        const int open = near_full - (is_touched ? near_->rgba(y)[4 * x + 3] : 0);
-        const auto add = [&](std::uint16_t all, std::uint16_t front, std::uint16_t& to) {
-            to = static_cast<std::uint16_t>(to + std::max(all - front, 0) * open / near_full);
-        };
-        add(row_[x].red, before[x].red, kept[x].red);
-        add(row_[x].green, before[x].green, kept[x].green);
-        add(row_[x].blue, before[x].blue, kept[x].blue);
-        add(row_[x].share, before[x].share, kept[x].share);
+    const auto add = [&](int first, int end, const std::uint16_t* rgba) {
+        if (first < end)
+            HWY_DYNAMIC_DISPATCH(AddBeyondRow)(&row_[first], before + first, rgba, kept + first, end - first);
+    };
+    const int width = grid_.tile.x1 - grid_.tile.x0;
+    if (y < touched.y0 || y >= touched.y1) {
+        add(0, width, nullptr);
+        return kept;
     }
+    const int first = touched.x0 - grid_.tile.x0, end = touched.x1 - grid_.tile.x0;
+    add(0, first, nullptr);
+    add(first, end, near_->rgba(y) + 4 * first);
+    add(end, width, nullptr);
     return kept;
 }
 
