@@ -107,8 +107,8 @@ void CellLimits::find_fine(const CellGrid& grid, const BackdropPicture& behind, 
         float *before = before_near_.at(0, row), *after = behind_near_.at(0, row);
         std::copy_n(backdrop_.at(0, row), width, before);
         std::fill_n(after, width, infinite);
+        if (!near->touches_row(y)) continue;
         const Rect& touched = near->touched();
-        if (y < touched.y0 || y >= touched.y1) continue;
         const float* depth = near->depth(y);
         for (int x = touched.x0 - tile.x0; x < touched.x1 - tile.x0; ++x)
             if (depth[x] > 0) before[x] = after[x] = near_plane / std::max(depth[x], backdrop[x]);
@@ -131,13 +131,8 @@ void CellLimits::find_coarse(const CellGrid& grid, const BackdropPicture& behind
             const float* backdrop = behind.depth.row(y) + left;
             lower(farthest_.data() + inset, backdrop, width);
             if (!near) continue;
-            const Rect& touched = near->touched();
             std::copy_n(backdrop, width, with_near_.begin());
-            if (y >= touched.y0 && y < touched.y1) {
-                const float* depth = near->depth(y);
-                for (int x = touched.x0; x < touched.x1; ++x)
-                    with_near_[x - left] = std::max(with_near_[x - left], depth[x - grid.tile.x0]);
-            }
+            near->raise(y, with_near_.data() + (grid.tile.x0 - left));
             lower(farthest_with_near_.data() + inset, with_near_.data(), width);
         }
         float* cells = backdrop_.at(0, row);

@@ -1,8 +1,6 @@
 // How far away people are seen in each cell of a tile, for what is behind them and for a near layer among them.
 #pragma once
 
-#include <span>
-
 #include "render/native/array.h"
 #include "render/native/cell_grid.h"
 #include "render/native/cell_plane.h"

@@ -256,25 +256,15 @@ void CoverTile::stretch_row(int y, const float* nearness) {
      row_.data());
 }
 
-// The nearness of what hides people before the near layer, from the tile's first column on.
-const float* CoverTile::with_near(int y) {
-    const Tile& tile = grid_.tile;
-    std::copy_n(behind_->depth.row(y) + tile.x0, tile.x1 - tile.x0, with_near_.begin());
-    const Rect& touched = near_->touched();
-    for (int x = touched.x0 - tile.x0; x < touched.x1 - tile.x0; ++x)
-        with_near_[x] = std::max(with_near_[x], near_->depth(y)[x]);
-    return with_near_.data();
-}
-
 void CoverTile::lay_near_on_pixels() {
     const Tile& tile = grid_.tile;
-    const Rect& touched = near_->touched();
     for (int y = tile.y0; y < tile.y1; ++y) {
-        const bool is_touched = y >= touched.y0 && y < touched.y1;
-        stretch_row(y, is_touched ? with_near(y) : behind_->depth.row(y) + tile.x0);
+        std::copy_n(behind_->depth.row(y) + tile.x0, tile.x1 - tile.x0, with_near_.begin());
+        near_->raise(y, with_near_.data());
+        stretch_row(y, with_near_.data());
         std::copy(row_.begin(), row_.end(), row_of(before_, y));
         std::copy(row_.begin(), row_.end(), row_of(kept_, y));
-        if (is_touched) lay_near_row(y, row_of(kept_, y));
+        if (near_->touches_row(y)) lay_near_row(y, row_of(kept_, y));
     }
     is_near_laid_ = true;
     cells_.begin(grid_.cells, true);
@@ -317,7 +307,7 @@ const Cover* CoverTile::pixel_row(int y) {
             HWY_DYNAMIC_DISPATCH(AddBeyondRow)(&row_[first], before + first, rgba, kept + first, end - first);
     };
     const int width = grid_.tile.x1 - grid_.tile.x0;
-    if (y < touched.y0 || y >= touched.y1) {
+    if (!near_->touches_row(y)) {
         add(0, width, nullptr);
         return kept;
     }

@@ -50,7 +50,6 @@ public:
 private:
     void find_columns();
     void stretch_row(int y, const float* nearness);
-    const float* with_near(int y);
     void lay_near_row(int y, Cover* to) const;
     void lay_near_on_pixels();
     void close_full_cells();

@@ -106,6 +106,12 @@ NearLayer::NearLayer()
       rgba_(hwy::AllocateAligned<std::uint16_t>(std::size_t{4} * tile_side * tile_side)),
       depth_(hwy::AllocateAligned<float>(std::size_t{tile_side} * tile_side)) {}
 
+void NearLayer::raise(int y, float* nearness) const {
+    if (!touches_row(y)) return;
+    for (int x = touched_.x0 - tile_.x0; x < touched_.x1 - tile_.x0; ++x)
+        nearness[x] = std::max(nearness[x], depth(y)[x]);
+}
+
 void NearLayer::begin(const Tile& tile, const BackdropPicture& behind) {
     assert(tile.x0 % sample_block_pixels == 0 && tile.y0 % sample_block_pixels == 0);
     assert(tile.x1 - tile.x0 <= tile_side && tile.y1 - tile.y0 <= tile_side);

@@ -55,8 +55,11 @@ public:
     const std::uint16_t* rgba(int y) const { return rgba_.get() + 4 * row_start(y); }
     // near_plane / view depth of the nearest covered sample; 0: none.
     const float* depth(int y) const { return depth_.get() + row_start(y); }
+    // Makes a row of near_plane / view depth, from the tile's first column on, no less than the layer's.
+    void raise(int y, float* nearness) const;
     // Pixels of the picture that may be covered; empty if nobody was drawn.
     Rect touched() const { return touched_; }
+    bool touches_row(int y) const { return y >= touched_.y0 && y < touched_.y1; }
 
     // For who draws. Blocks of the picture that are the tile's.
     Rect blocks() const { return blocks_; }

@@ -245,7 +245,7 @@ void SplatModel::copy_look(std::uint32_t key, int from, int to) {
     std::copy_n(&visible_[(first + from) * chunks_], chunks_, &visible_[(first + to) * chunks_]);
     looks_[first + to] = looks_[first + from];
     for (int azimuth = 0; azimuth < sun_azimuths; ++azimuth)
-        std::copy_n(lights_of(key, azimuth, from), light_stride, lights_of(key, azimuth, to));
+        std::copy_n(&lights_[lights_of(key, azimuth, from)], light_stride, &lights_[lights_of(key, azimuth, to)]);
 }
 
 std::vector<SplatModel::LitPoint> SplatModel::light_points(std::uint32_t pose) {
@@ -292,7 +292,7 @@ void SplatModel::find_lights(std::uint32_t key, int node, glm::vec3 direction, s
     }
     if (!(weights > 0.0f)) return;
     for (int azimuth = 0; azimuth < sun_azimuths; ++azimuth) {
-        std::uint16_t* light = lights_of(key, azimuth, node);
+        std::uint16_t* light = &lights_[lights_of(key, azimuth, node)];
         for (const auto& sum : sums)
             for (int channel = 0; channel < 3; ++channel)
                 *light++ =
@@ -307,8 +307,8 @@ SplatModel::SlotLights SplatModel::lights(std::uint32_t pose, const Between& bet
     std::array<const std::uint16_t*, mixed_rows> rows;
     std::array<float, mixed_rows> weights;
     for (int i = 0; i < 4; ++i) {
-        rows[2 * i] = lights_of(key_of_[pose], below, between.node[i]);
-        rows[2 * i + 1] = lights_of(key_of_[pose], above, between.node[i]);
+        rows[2 * i] = &lights_[lights_of(key_of_[pose], below, between.node[i])];
+        rows[2 * i + 1] = &lights_[lights_of(key_of_[pose], above, between.node[i])];
         weights[2 * i + 1] = between.share[i] * share / light_unit;
         weights[2 * i] = between.share[i] / light_unit - weights[2 * i + 1];
     }

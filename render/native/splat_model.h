@@ -112,11 +112,8 @@ private:
     // Of a look, [slot][channel], and one more.
     static constexpr int light_values = (1 + model::slot_count) * 3, light_stride = mixed_values;
     static_assert(light_values <= light_stride);
-    std::uint16_t* lights_of(std::uint32_t key, int azimuth, int node) {
-        return &lights_[((std::size_t{key} * sun_azimuths + azimuth) * direction_nodes + node) * light_stride];
-    }
-    const std::uint16_t* lights_of(std::uint32_t key, int azimuth, int node) const {
-        return const_cast<SplatModel*>(this)->lights_of(key, azimuth, node);
+    std::size_t lights_of(std::uint32_t key, int azimuth, int node) const {
+        return ((std::size_t{key} * sun_azimuths + azimuth) * direction_nodes + node) * light_stride;
     }
 
     int points_ = 0, chunks_ = 0;

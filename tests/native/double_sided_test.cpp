@@ -11,6 +11,7 @@
 #include "figures/way.h"
 #include "pointsample/sample.h"
 #include "render/native/renderer.h"
+#include "tests/render/stiff_mesh.h"
 
 namespace {
 
@@ -31,19 +32,11 @@ model::Character make_sheet() {
         for (const double y : {0.0, height}) {
             const double turn = std::numbers::pi * (static_cast<double>(i) / around - 0.5);
             const glm::vec3 normal(std::sin(turn), 0, std::cos(turn));
-            mesh.positions.emplace_back(radius * std::sin(turn), y, radius * std::cos(turn));
-            mesh.normals.push_back(normal);
-            mesh.uvs.emplace_back(0);
-            mesh.colors.emplace_back(255);
-            mesh.slots.push_back(model::no_slot);
-            mesh.material_ids.push_back(0);
-            mesh.joints.emplace_back(0);
-            mesh.weights.emplace_back(1, 0, 0, 0);
+            tests::add_vertex(mesh, {radius * std::sin(turn), y, radius * std::cos(turn)}, normal);
         }
     for (std::uint32_t i = 0; i < around; ++i)
         for (const std::uint32_t corner : {0, 2, 1, 1, 2, 3}) mesh.indices.push_back(2 * i + corner);
-    sheet.skeleton.nodes.resize(1);
-    sheet.skeleton.palette.emplace_back();
+    tests::add_only_joint(sheet);
     return sheet;
 }
 

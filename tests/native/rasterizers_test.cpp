@@ -16,6 +16,7 @@
 #include "render/native/raster.h"
 #include "tests/native/exact_triangle.h"
 #include "tests/native/layers.h"
+#include "tests/render/stiff_mesh.h"
 
 namespace {
 
@@ -232,6 +233,24 @@ double rounding_of_shares(const ExactTriangle& triangle) {
     return 2e-6 * triangle.nearest();
 }
 
+// Fails where a sample shows what none of the triangles explains; those that have no area or face away show nothing.
+// Returns how many samples were covered, all triangles together.
+int compare_samples(TileScene& scene, const std::vector<ExactTriangle>& triangles, unsigned round) {
+    int covered = 0;
+    scene.for_each_sample([&](int x, int y, std::uint32_t who, double depth) {
+        Sample sample(static_cast<double>(scene.behind_depth));
+        for (std::size_t i = 0; i < triangles.size(); ++i) {
+            if (triangles[i].area() <= 0 || !triangles[i].covers(sample_at(x, y))) continue;
+            ++covered;
+            sample.add(static_cast<std::uint32_t>(i + 1), triangles[i].depth_at(sample_at(x, y)),
+                       rounding_of_shares(triangles[i]));
+        }
+        ASSERT_TRUE(sample.may_show(who, depth)) << "round " << round << ", " << x << ' ' << y << " shows " << who
+                                                 << " at " << depth << ", expected one of" << sample.expected();
+    });
+    return covered;
+}
+
 // Triangles that have nothing to do with each other, each with corners of its own.
 model::Character loose_triangles(std::size_t count, bool double_sided) {
     model::Character character;
@@ -240,17 +259,9 @@ model::Character loose_triangles(std::size_t count, bool double_sided) {
     mesh.materials[0].double_sided = double_sided;
     for (std::size_t i = 0; i < 3 * count; ++i) {
         mesh.indices.push_back(static_cast<std::uint32_t>(i));
-        mesh.positions.emplace_back(i % 3, i % 2, i / 3);
-        mesh.normals.emplace_back(0, 1, 0);
-        mesh.uvs.emplace_back(0);
-        mesh.colors.emplace_back(255);
-        mesh.slots.push_back(model::no_slot);
-        mesh.material_ids.push_back(0);
-        mesh.joints.emplace_back(0);
-        mesh.weights.emplace_back(1, 0, 0, 0);
+        tests::add_vertex(mesh, glm::vec3(i % 3, i % 2, i / 3), {0, 1, 0});
     }
-    character.skeleton.nodes.resize(1);
-    character.skeleton.palette.emplace_back();
+    tests::add_only_joint(character);
     return character;
 }
 
@@ -301,17 +312,7 @@ TEST(PeoplesRasteriser, OnTheGridShowsWhatEverySampleSees) {
               lit.get(),
               tints.data()},
              scene.layer);
-        scene.for_each_sample([&](int x, int y, std::uint32_t who, double depth) {
-            Sample sample(static_cast<double>(scene.behind_depth));
-            for (std::size_t i = 0; i < count; ++i) {
-                if (triangles[i].area() <= 0 || !triangles[i].covers(sample_at(x, y))) continue;
-                ++covered;
-                sample.add(static_cast<std::uint32_t>(i + 1), triangles[i].depth_at(sample_at(x, y)),
-                           rounding_of_shares(triangles[i]));
-            }
-            ASSERT_TRUE(sample.may_show(who, depth)) << "round " << round << ", " << x << ' ' << y << " shows " << who
-                                                     << " at " << depth << ", expected one of" << sample.expected();
-        });
+        covered += compare_samples(scene, triangles, round);
         if (HasFatalFailure()) return;
     }
     EXPECT_GT(covered, 100000);
@@ -348,17 +349,7 @@ TEST(PeoplesRasteriser, OfAnySizeShowsWhatEverySampleSees) {
             drawn.push_back(wide(triangle, triangles.size()));
         }
         fill(TextureLayers(), drawn, scene.layer);
-        scene.for_each_sample([&](int x, int y, std::uint32_t who, double depth) {
-            Sample sample(static_cast<double>(scene.behind_depth));
-            for (std::size_t i = 0; i < triangles.size(); ++i) {
-                if (!triangles[i].covers(sample_at(x, y))) continue;
-                ++covered;
-                sample.add(static_cast<std::uint32_t>(i + 1), triangles[i].depth_at(sample_at(x, y)),
-                           rounding_of_shares(triangles[i]));
-            }
-            ASSERT_TRUE(sample.may_show(who, depth)) << "round " << round << ", " << x << ' ' << y << " shows " << who
-                                                     << " at " << depth << ", expected one of" << sample.expected();
-        });
+        covered += compare_samples(scene, triangles, round);
         if (HasFatalFailure()) return;
     }
     EXPECT_GT(covered, 100000);

@@ -16,6 +16,7 @@
 #include "scene/person.h"
 #include "tests/native/layers.h"
 #include "tests/native/mesh_people.h"
+#include "tests/render/stiff_mesh.h"
 
 namespace {
 
@@ -69,18 +70,14 @@ model::Character make_soup(const Soup& soup) {
         const glm::vec3 middle = vector(1);
         for (int k = 0; k < 3; ++k) {
             mesh.indices.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
-            mesh.positions.push_back(middle + vector(soup.size));
-            mesh.normals.push_back(glm::normalize(vector(1) + glm::vec3(1e-3f)));
-            mesh.uvs.emplace_back(draw_number(random, -1, 2), draw_number(random, -1, 2));
-            mesh.colors.emplace_back(random() % 256, random() % 256, random() % 256, 255);
-            mesh.slots.push_back(static_cast<model::Slot>(random() % (model::slot_count + 1)));
-            mesh.material_ids.push_back(0);
-            mesh.joints.emplace_back(0);
-            mesh.weights.emplace_back(1, 0, 0, 0);
+            const glm::vec3 position = middle + vector(soup.size);
+            tests::add_vertex(mesh, position, glm::normalize(vector(1) + glm::vec3(1e-3f)));
+            mesh.uvs.back() = glm::vec2(draw_number(random, -1, 2), draw_number(random, -1, 2));
+            mesh.colors.back() = glm::u8vec4(random() % 256, random() % 256, random() % 256, 255);
+            mesh.slots.back() = static_cast<model::Slot>(random() % (model::slot_count + 1));
         }
     }
-    character.skeleton.nodes.resize(1);
-    character.skeleton.palette.emplace_back();
+    tests::add_only_joint(character);
     return character;
 }
 
@@ -403,14 +400,7 @@ model::Character make_ball() {
         for (int i = 0; i < around; ++i) {
             const double theta = 3.14159265358979 * j / down, phi = 2 * 3.14159265358979 * i / around;
             const glm::vec3 n(std::sin(theta) * std::sin(phi), std::cos(theta), std::sin(theta) * std::cos(phi));
-            mesh.positions.push_back(n);
-            mesh.normals.push_back(n);
-            mesh.uvs.emplace_back(0);
-            mesh.colors.emplace_back(255);
-            mesh.slots.push_back(model::no_slot);
-            mesh.material_ids.push_back(0);
-            mesh.joints.emplace_back(0);
-            mesh.weights.emplace_back(1, 0, 0, 0);
+            tests::add_vertex(mesh, n, n);
         }
     }
     for (std::uint32_t j = 0; j < down; ++j)

@@ -8,6 +8,7 @@
 #include "render/select.h"
 #include "scene/crowd.h"
 #include "scene/places/oval.h"
+#include "tests/render/stiff_mesh.h"
 
 namespace tests {
 
@@ -29,14 +30,8 @@ inline model::Character make_lift(float half_width, float rise, double seconds, 
             for (int i = 0; i <= cells; ++i) {
                 const float u = 2 * static_cast<float>(i) / static_cast<float>(cells) - 1;
                 const float v = 2 * static_cast<float>(j) / static_cast<float>(cells) - 1;
-                mesh.positions.push_back(center + half * (normal + u * right + v * up));
-                mesh.normals.push_back(normal);
-                mesh.uvs.emplace_back(0);
-                mesh.colors.emplace_back(200, 200, 200, 255);
-                mesh.slots.push_back(model::no_slot);
-                mesh.material_ids.push_back(0);
-                mesh.joints.emplace_back(0);
-                mesh.weights.emplace_back(1, 0, 0, 0);
+                add_vertex(mesh, center + half * (normal + u * right + v * up), normal);
+                mesh.colors.back() = {200, 200, 200, 255};
             }
         }
         const auto row = static_cast<std::uint32_t>(cells + 1);
@@ -45,8 +40,7 @@ inline model::Character make_lift(float half_width, float rise, double seconds, 
                 for (const std::uint32_t corner : {0u, 1u, row + 1, 0u, row + 1, row})
                     mesh.indices.push_back(first + j * row + i + corner);
     }
-    lift.skeleton.nodes.resize(1);
-    lift.skeleton.palette.emplace_back();
+    add_only_joint(lift);
     model::Channel rising{0, model::Path::translation, model::Interpolation::linear, {}, {}};
     const auto end = static_cast<float>(seconds);
     rising.times = {0, end / 2, end};
