@@ -40,13 +40,12 @@ struct CellBox {
     int x0, y0, x1, y1;
 
     CellBox(const ScreenTriangle& triangle, int cells_across, int cells_down) {
-        constexpr int half = subpixels / 2, side = subpixels * tile_side;
         const auto [left, right] = std::minmax({triangle.x[0], triangle.x[1], triangle.x[2], triangle.x[3]});
         const auto [top, bottom] = std::minmax({triangle.y[0], triangle.y[1], triangle.y[2], triangle.y[3]});
-        x0 = std::max(left - half, 0) / side;
-        y0 = std::max(top - half, 0) / side;
-        x1 = std::min(std::max(right - half, 0) / side, cells_across - 1);
-        y1 = std::min(std::max(bottom - half, 0) / side, cells_down - 1);
+        x0 = std::max(first_sampled<most_samples>(left), 0) / tile_side;
+        y0 = std::max(first_sampled<most_samples>(top), 0) / tile_side;
+        x1 = std::min(std::max(last_sampled<most_samples>(right), 0) / tile_side, cells_across - 1);
+        y1 = std::min(std::max(last_sampled<most_samples>(bottom), 0) / tile_side, cells_down - 1);
     }
 };
 
@@ -177,7 +176,7 @@ void Backdrop::paint(const Tile& tile, BackdropPicture& out) const {
 }
 
 void Backdrop::paint_cell(const Tile& tile, int cell_x, int cell_y, BackdropPicture& out) const {
-    Cell cell;
+    Cell<most_samples> cell;
     cell.x0 = cell_x * tile_side;
     cell.y0 = cell_y * tile_side;
     const int end_y = std::min(tile.y1, cell.y0 + tile_side);
@@ -192,15 +191,14 @@ void Backdrop::paint_cell(const Tile& tile, int cell_x, int cell_y, BackdropPict
         const std::uint32_t first = part.first_in_cell[number], last = part.first_in_cell[number + 1];
         rasterize(part.visible, std::span(part.in_cell).subspan(first, last - first), surface_offsets_[i], cell);
     }
-    find_farthest(cell);
     for (int row = cell.first_row; row <= cell.last_row; ++row)
         for (int column = cell.first_column; column <= cell.last_column; ++column) {
-            shade(shading_, grounds_, cell, column, row);
-            const std::size_t block = Cell::block(column, row);
+            PaintedBlock block;
+            shade(shading_, grounds_, cell, column, row, block);
             const int x = cell.x0 + column * block_side, y = cell.y0 + row * block_side;
-            copy_block(&cell.surface[block * block_pixels], x, y, end_y, out.color);
-            copy_block(&cell.depth[block * block_pixels], x, y, end_y, out.depth);
-            out.farthest.row(y / block_side)[x / block_side] = cell.farthest[block];
+            copy_block(block.color, x, y, end_y, out.color);
+            copy_block(block.depth, x, y, end_y, out.depth);
+            out.farthest.row(y / block_side)[x / block_side] = block.farthest;
         }
 }
 

@@ -278,22 +278,22 @@ void Occluder::gather() {
 
 void Occluder::paint(std::size_t index) {
     const Tile tile = grid_.tile(index);
-    Cell cell;
+    Cell<1> cell;
     cell.x0 = tile.x0;
     cell.y0 = tile.y0;
     cell.last_column = (tile.x1 - tile.x0 - 1) / block_side;
     cell.last_row = (tile.y1 - tile.y0 - 1) / block_side;
     clear(cell, view_.width, view_.height);
     rasterize(triangles_, triangle_lists_.of(index), 0, cell);
-    find_farthest(cell);
+    finish(cell);
     for (const std::uint32_t i : seam_lists_.of(index)) open_beside(seams_[i], cell);
     for (int row = 0; row <= cell.last_row; ++row)
-        std::copy_n(&cell.farthest[Cell::block(0, row)], cell.last_column + 1,
+        std::copy_n(&cell.farthest[Cell<1>::block(0, row)], cell.last_column + 1,
                     farthest_.row(tile.y0 / block_side + row) + tile.x0 / block_side);
 }
 
 // Row by row: the part of the seam that is so high, and what is so near to it.
-void Occluder::open_beside(const Seam& seam, Cell& cell) {
+void Occluder::open_beside(const Seam& seam, Cell<1>& cell) {
     const auto [left, right] = std::minmax(seam.x0, seam.x1);
     const auto [top, bottom] = std::minmax(seam.y0, seam.y1);
     const double slope = top == bottom ? 0.0 : static_cast<double>(seam.x1 - seam.x0) / (seam.y1 - seam.y0);
@@ -312,7 +312,7 @@ void Occluder::open_beside(const Seam& seam, Cell& cell) {
         const int x1 = std::min(end_pixel(to + rounding), cell.x0 + (cell.last_column + 1) * block_side);
         for (int x = x0; x < x1; ++x) {
             const int column = x - cell.x0, row = y - cell.y0;
-            const std::size_t block = Cell::block(column / block_side, row / block_side);
+            const std::size_t block = Cell<1>::block(column / block_side, row / block_side);
             const std::size_t pixel = block * block_pixels + row % block_side * block_side + column % block_side;
             if (!(cell.depth[pixel] > seam.nearest)) cell.farthest[block] = 0;
         }

@@ -63,7 +63,7 @@ private:
     void lower(ScreenTriangle& triangle, const Panel& panel) const;
     void gather();
     void paint(std::size_t tile);
-    static void open_beside(const Seam& seam, Cell& cell);
+    static void open_beside(const Seam& seam, Cell<1>& cell);
 
     Corners corners_;  // of all sectors, each position once
     ScreenCorners screen_;

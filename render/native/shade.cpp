@@ -59,7 +59,7 @@ void light_corners(const FrameBlock& frame, std::span<const scene::StaticVertex>
 struct Screen {
     float x0, y0, step_x, step_y;
 
-    Screen(const Shading& shading, const Cell& cell, int column, int row)
+    Screen(const Shading& shading, const Cell<most_samples>& cell, int column, int row)
         : step_x(2.0f / static_cast<float>(shading.width)), step_y(-2.0f / static_cast<float>(shading.height)) {
         x0 = (static_cast<float>(cell.x0 + column * block_side) + 0.5f) * step_x - 1.0f;
         y0 = (static_cast<float>(cell.y0 + row * block_side) + 0.5f) * step_y + 1.0f;
@@ -89,42 +89,61 @@ HWY_INLINE vec2 at_pixel(const Screen& screen, int i) {
     return {screen.x0 + load(places.column + i) * screen.step_x, screen.y0 + load(places.row + i) * screen.step_y};
 }
 
-HWY_INLINE void store_where(hn::Mask<Words> mask, hn::Vec<Words> color, hn::Vec<Words> before, std::uint32_t* to) {
-    hn::Store(hn::IfThenElse(mask, color, before), Words(), to);
-}
+// What a block's samples show: so many planes of block_pixels.
+struct Surfaces {
+    std::uint32_t* of;
+    int planes;
 
-HWY_INLINE bool is_finished(const std::uint32_t* surface) {
-    const Words du;
-    auto all = hn::Set(du, finished);
-    for (int i = 0; i < block_pixels; i += lanes) all = hn::And(all, hn::Load(du, surface + i));
-    return hn::AllTrue(du, hn::Eq(all, hn::Set(du, finished)));
-}
+    std::uint32_t* at(int plane, int i) const { return of + plane * block_pixels + i; }
+};
 
-// Of a block's pixels: whether any is sky, and the greatest number of a ground that is not finished, or 0.
+// Which of a vector of pixels' samples show `surface`; `any`: a sample of which pixels does.
+struct Shown {
+    hn::Mask<Words> in[most_samples];
+    hn::Mask<Words> any;
+
+    HWY_ATTR Shown(const Surfaces& surfaces, int i, std::uint32_t surface) {
+        const Words du;
+        for (int plane = 0; plane < surfaces.planes; ++plane) {
+            in[plane] = hn::Eq(hn::Load(du, surfaces.at(plane, i)), hn::Set(du, surface));
+            any = plane == 0 ? in[0] : hn::Or(any, in[plane]);
+        }
+    }
+    HWY_ATTR void replace(const Surfaces& surfaces, int i, hn::Vec<Words> color) const {
+        const Words du;
+        for (int plane = 0; plane < surfaces.planes; ++plane) {
+            std::uint32_t* to = surfaces.at(plane, i);
+            hn::Store(hn::IfThenElse(in[plane], color, hn::Load(du, to)), du, to);
+        }
+    }
+};
+
+// Of a block's samples that aren't finished: whether any is sky, and the first and the last number of a ground, or 0.
 struct Unfinished {
     bool sky = false;
-    std::uint32_t ground = 0;
+    std::uint32_t first_ground = 0, last_ground = 0;
 };
-HWY_INLINE Unfinished find_unfinished(const std::uint32_t* surface) {
+HWY_INLINE Unfinished find_unfinished(const Surfaces& surfaces) {
     const Words du;
-    const auto done = hn::Set(du, finished);
-    auto least = done, most = hn::Zero(du);
-    for (int i = 0; i < block_pixels; i += lanes) {
-        const auto s = hn::Load(du, surface + i);
+    const auto done = hn::Set(du, finished), one = hn::Set(du, 1);
+    auto all = done, least = done, first = done, last = hn::Zero(du);
+    for (int i = 0; i < surfaces.planes * block_pixels; i += lanes) {
+        const auto s = hn::Load(du, surfaces.of + i);
+        all = hn::And(all, s);
         least = hn::Min(least, s);
-        most = hn::Max(most, hn::IfThenZeroElse(hn::Eq(hn::And(s, done), done), s));
+        first = hn::Min(first, hn::Sub(s, one));  // of sky, the greatest number
+        last = hn::Max(last, hn::IfThenZeroElse(hn::Eq(hn::And(s, done), done), s));
     }
-    return {hn::GetLane(hn::MinOfLanes(du, least)) == sky_surface, hn::GetLane(hn::MaxOfLanes(du, most))};
+    if (hn::AllTrue(du, hn::Eq(all, done))) return {};
+    return {hn::GetLane(hn::MinOfLanes(du, least)) == sky_surface, hn::GetLane(hn::MinOfLanes(du, first)) + 1,
+            hn::GetLane(hn::MaxOfLanes(du, last))};
 }
 
-__attribute__((flatten)) void shade_sky(const Shading& shading, const Screen& screen, std::uint32_t* surface) {
-    const Words du;
+__attribute__((flatten)) void shade_sky(const Shading& shading, const Screen& screen, const Surfaces& surfaces) {
     Sky sky(shading.frame);
     for (int i = 0; i < block_pixels; i += lanes) {
-        const auto before = hn::Load(du, surface + i);
-        const auto is_sky = hn::Eq(before, hn::Zero(du));
-        if (hn::AllFalse(du, is_sky)) continue;
-        store_where(is_sky, packed(sky.sky_at(at_pixel(screen, i))), before, surface + i);
+        const Shown shown(surfaces, i, sky_surface);
+        if (!hn::AllFalse(Words(), shown.any)) shown.replace(surfaces, i, packed(sky.sky_at(at_pixel(screen, i))));
     }
 }
 
@@ -169,16 +188,14 @@ HWY_INLINE void find_ground_places(const Shading& shading, const Screen& screen,
 
 template <typename Ground>
 __attribute__((flatten)) void shade_ground(const Shading& shading, const GroundPlaces& at, std::uint32_t number,
-                                           std::uint32_t* surface) {
-    const Words du;
+                                           const Surfaces& surfaces) {
     for (int i = 0; i < block_pixels; i += lanes) {
-        const auto before = hn::Load(du, surface + i);
-        const auto is_it = hn::Eq(before, hn::Set(du, number));
-        if (hn::AllFalse(du, is_it)) continue;
+        const Shown shown(surfaces, i, number);
+        if (hn::AllFalse(Words(), shown.any)) continue;
         Ground ground(shading.frame);
         ground.set_pixel({load(at.right_x + i), load(at.right_z + i)}, {load(at.up_x + i), load(at.up_z + i)});
         const vec3 linear = ground.surface_at({load(at.x + i), load(at.z + i)}) * ground.daylight();
-        store_where(is_it, packed(sqrt(linear)), before, surface + i);
+        shown.replace(surfaces, i, packed(sqrt(linear)));
     }
 }
 
@@ -191,20 +208,98 @@ const ScreenTriangle& triangle_of(std::span<const std::span<const ScreenTriangle
     return grounds[0][i];
 }
 
-void shade(const Shading& shading, std::span<const std::span<const ScreenTriangle>> grounds, Cell& cell, int column,
-           int row) {
-    std::uint32_t* surface = &cell.surface[Cell::block(column, row) * block_pixels];
-    if (is_finished(surface)) return;
-    const Unfinished unfinished = find_unfinished(surface);
+void finish(const Shading& shading, std::span<const std::span<const ScreenTriangle>> grounds,
+            const Cell<most_samples>& cell, int column, int row, const Surfaces& surfaces) {
+    Unfinished left = find_unfinished(surfaces);
+    if (!left.sky && left.last_ground == 0) return;
     const Screen screen(shading, cell, column, row);
-    if (unfinished.sky) shade_sky(shading, screen, surface);
-    for (std::uint32_t number = unfinished.ground; number != 0;
-         number = is_finished(surface) ? 0 : find_unfinished(surface).ground) {
+    if (left.sky) shade_sky(shading, screen, surfaces);
+    while (left.last_ground != 0) {
+        const std::uint32_t number = left.last_ground;
         GroundPlaces at;
         find_ground_places(shading, screen, triangle_of(grounds, number), cell.x0 + column * block_side,
                            cell.y0 + row * block_side, at);
-        shade_ground<StadiumGround>(shading, at, number, surface);
+        shade_ground<StadiumGround>(shading, at, number, surfaces);
+        left = left.first_ground == number ? Unfinished{} : find_unfinished(surfaces);
     }
+}
+
+// The mean of four colours' light.
+HWY_INLINE hn::Vec<Words> mean(const hn::Vec<Words>* color) {
+    const Words du;
+    const Floats d;
+    auto all = hn::Set(du, finished);
+    for (const int shift : {0, 8, 16}) {
+        auto light = hn::Zero(d);
+        for (int s = 0; s < most_samples; ++s) {
+            const auto byte = hn::And(hn::ShiftRightSame(color[s], shift), hn::Set(du, 255));
+            const auto root = hn::ConvertTo(d, hn::BitCast(hn::RebindToSigned<Floats>(), byte));
+            light = hn::Add(light, hn::Mul(root, root));
+        }
+        const auto root = hn::NearestInt(hn::Sqrt(hn::Mul(light, hn::Set(d, 1.0f / most_samples))));
+        all = hn::Or(all, hn::ShiftLeftSame(hn::BitCast(du, root), shift));
+    }
+    return all;
+}
+
+// The second farthest of four.
+HWY_INLINE hn::Vec<Floats> second_farthest(const hn::Vec<Floats>* depth) {
+    const auto farther = hn::Max(hn::Min(depth[0], depth[1]), hn::Min(depth[2], depth[3]));
+    return hn::Min(farther, hn::Min(hn::Max(depth[0], depth[1]), hn::Max(depth[2], depth[3])));
+}
+
+void filter(const Surfaces& surfaces, const float* depths, PaintedBlock& out) {
+    const Words du;
+    const Floats d;
+    for (int i = 0; i < block_pixels; i += lanes) {
+        hn::Vec<Words> color[most_samples];
+        hn::Vec<Floats> depth[most_samples];
+        auto differ = hn::Zero(du);
+        for (int s = 0; s < most_samples; ++s) {
+            color[s] = hn::Load(du, surfaces.at(s, i));
+            differ = hn::Or(differ, hn::Xor(color[s], color[0]));
+            depth[s] = hn::Load(d, depths + s * block_pixels + i);
+        }
+        hn::Store(hn::AllTrue(du, hn::Eq(differ, hn::Zero(du))) ? color[0] : mean(color), du, out.color + i);
+        hn::Store(second_farthest(depth), d, out.depth + i);
+    }
+}
+
+// Of a block that one surface fills.
+void spread(const Sheet& sheet, PaintedBlock& out) {
+    const Words du;
+    const Floats d;
+    const auto surface = hn::Set(du, sheet.surface);
+    for (int i = 0; i < block_pixels; i += lanes) {
+        hn::Vec<Floats> depth[most_samples];
+        for (int s = 0; s < most_samples; ++s) {
+            constexpr float step = 1.0f / sample_steps;
+            const SamplePoint at = sample_points<most_samples>[s];
+            const auto x = hn::Add(hn::Load(d, places.column + i), hn::Set(d, step * static_cast<float>(at.x)));
+            const auto y = hn::Add(hn::Load(d, places.row + i), hn::Set(d, step * static_cast<float>(at.y)));
+            depth[s] = hn::Add(hn::Add(hn::Set(d, sheet.depth), hn::Mul(hn::Set(d, sheet.depth_y), y)),
+                               hn::Mul(hn::Set(d, sheet.depth_x), x));
+        }
+        hn::Store(surface, du, out.color + i);
+        hn::Store(second_farthest(depth), d, out.depth + i);
+    }
+}
+
+void shade(const Shading& shading, std::span<const std::span<const ScreenTriangle>> grounds, Cell<most_samples>& cell,
+           int column, int row, PaintedBlock& out) {
+    const Floats d;
+    const std::size_t block = cell.block(column, row);
+    if (cell.is_sheet[block]) {
+        spread(cell.sheet[block], out);
+        finish(shading, grounds, cell, column, row, {out.color, 1});
+    } else {
+        const Surfaces surfaces{cell.surfaces(block), most_samples};
+        finish(shading, grounds, cell, column, row, surfaces);
+        filter(surfaces, cell.depths(block), out);
+    }
+    auto least = hn::Load(d, out.depth);
+    for (int i = lanes; i < block_pixels; i += lanes) least = hn::Min(least, hn::Load(d, out.depth + i));
+    out.farthest = hn::GetLane(hn::MinOfLanes(d, least));
 }
 
 }  // namespace render::native::HWY_NAMESPACE
@@ -230,9 +325,9 @@ std::vector<std::uint32_t> light_corners(const FrameBlock& frame, std::span<cons
 }
 
 HWY_EXPORT(shade);
-void shade(const Shading& shading, std::span<const std::span<const ScreenTriangle>> grounds, Cell& cell, int column,
-           int row) {
-    HWY_DYNAMIC_DISPATCH(shade)(shading, grounds, cell, column, row);
+void shade(const Shading& shading, std::span<const std::span<const ScreenTriangle>> grounds, Cell<most_samples>& cell,
+           int column, int row, PaintedBlock& out) {
+    HWY_DYNAMIC_DISPATCH(shade)(shading, grounds, cell, column, row, out);
 }
 
 }  // namespace render::native

@@ -28,9 +28,17 @@ struct Shading {
     GroundPaint ground = GroundPaint::none;
 };
 
-// Finishes those pixels of a block of the cell that show sky or ground. Triangles of the ground are numbered through
-// `grounds`, from ground_surface on.
-void shade(const Shading& shading, std::span<const std::span<const ScreenTriangle>> grounds, Cell& cell, int column,
-           int row);
+// A block's pixels.
+struct PaintedBlock {
+    alignas(64) std::uint32_t color[block_pixels];  // as a picture's
+    // The second farthest of a pixel's samples: people are shown where the backdrop has at most half of it before them.
+    alignas(64) float depth[block_pixels];
+    float farthest;  // of them
+};
+
+// Finishes those samples of a block of the cell that show sky or ground, each colour found once a pixel, and filters
+// them: the mean of their light. Triangles of the ground are numbered through `grounds`, from ground_surface on.
+void shade(const Shading& shading, std::span<const std::span<const ScreenTriangle>> grounds, Cell<most_samples>& cell,
+           int column, int row, PaintedBlock& out);
 
 }  // namespace render::native

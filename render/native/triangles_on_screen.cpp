@@ -79,11 +79,9 @@ struct ScreenCorner {
     float depth;
 };
 
-// Whether a row or column of pixels' centres lies in [low, high], both in subpixels.
-bool holds_a_center(std::int32_t low, std::int32_t high, std::int32_t picture_end) {
-    constexpr std::int32_t half = subpixels / 2;
-    const std::int32_t first = std::max((low + half - 1) >> 8, 0), last = std::min((high - half) >> 8, picture_end - 1);
-    return first <= last;
+// Whether a row or column of samples lies in [low, high], both in subpixels.
+bool holds_a_sample(std::int32_t low, std::int32_t high, std::int32_t picture_end) {
+    return std::max(first_sampled<most_samples>(low), 0) <= std::min(last_sampled<most_samples>(high), picture_end - 1);
 }
 
 // Twice the area on the screen: positive of what faces the camera, which is counter-clockwise where y is up.
@@ -110,7 +108,7 @@ void add(const View& view, const std::array<ScreenCorner, 4>& clockwise, const D
     const auto& [a, b, c, d] = clockwise;
     const auto [left, right] = std::minmax({a.x, b.x, c.x, d.x});
     const auto [top, bottom] = std::minmax({a.y, b.y, c.y, d.y});
-    if (!holds_a_center(left, right, view.width) || !holds_a_center(top, bottom, view.height)) return;
+    if (!holds_a_sample(left, right, view.width) || !holds_a_sample(top, bottom, view.height)) return;
     out.push_back({{a.x, b.x, c.x, d.x},
                    {a.y, b.y, c.y, d.y},
                    surface,

@@ -9,6 +9,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "render/native/sample_points.h"
 #include "render/view.h"
 
 namespace render::native {
@@ -16,6 +17,17 @@ namespace render::native {
 inline constexpr int subpixels = 256;         // in a pixel, along x and y
 inline constexpr int largest_picture = 8192;  // [px] either side
 inline constexpr int guard_band = 4096;       // [px] around the picture: what reaches farther out is clipped
+
+// Of the rows or columns of pixels that have a sample in [low, high], in subpixels: the first, and the last.
+template <int samples>
+constexpr int first_sampled(std::int32_t low) {
+    return (low + subpixels - 1 - subpixels / sample_steps * last_sample<samples>) >> 8;
+}
+template <int samples>
+constexpr int last_sampled(std::int32_t high) {
+    return (high - subpixels / sample_steps * first_sample<samples>) >> 8;
+}
+inline constexpr int most_samples = 4;  // whose first and last row and column enclose all others'
 
 // A triangle, whose last corner is there twice, or a flat convex quadrilateral. Clockwise on the screen, x to the right
 // and y down; no two corners are farther apart than 2^22 subpixels. Where it is seen, its depth is linear in the pixel.
@@ -65,7 +77,7 @@ struct Panel {
 std::vector<Panel> make_panels(const std::vector<glm::vec3>& positions, const std::vector<Triangle>& triangles,
                                const std::vector<std::uint32_t>& surfaces);
 
-// Appends to `out` what faces the camera and may cover a pixel's centre, in the order of `panels`; of clipped ones the
+// Appends to `out` what faces the camera and may cover a sample, in the order of `panels`; of clipped ones the
 // rest, in several triangles.
 void add_visible(const View& view, const Corners& corners, const ScreenCorners& screen,
                  const std::vector<Panel>& panels, std::vector<ScreenTriangle>& out);

@@ -36,16 +36,16 @@ real markings(vec2 p) {
 }
 
 vec3 grass(vec2 p) {
-    const float stripe = 5.25f;  // [m] twenty mown stripes on a pitch
+    const float stripes = 1.0f / 5.25f;  // [1/m] twenty mown stripes on a pitch
     real pixel = footprint.x;
-    real mown = clamp(0.5f + sin(p.x * 3.14159265f / stripe) / max(pixel, 0.05f), 0.0f, 1.0f);
-    mown = mix(mown, 0.5f, clamp(pixel / stripe, 0.0f, 1.0f));
+    real mown = clamp(0.5f + sin(p.x * (3.14159265f * stripes)) / max(pixel, 0.05f), 0.0f, 1.0f);
+    mown = mix(mown, 0.5f, clamp(pixel * stripes, 0.0f, 1.0f));
     return mix(vec3(0.050f, 0.150f, 0.030f), vec3(0.068f, 0.190f, 0.040f), mown);
 }
 
 vec3 paving(vec2 p) {
     const float slab = 8.0f;  // [m]
-    vec2 joint = abs(fract(p / slab + 0.5f) - 0.5f) * slab;
+    vec2 joint = abs(fract(p * (1.0f / slab) + 0.5f) - 0.5f) * slab;
     real joints = max(line(edge_x(joint.x), 0.05f), line(edge_z(joint.y), 0.05f));
     return mix(vec3(0.26f, 0.25f, 0.235f), vec3(0.19f, 0.185f, 0.18f), joints);
 }
@@ -58,7 +58,7 @@ vec3 arena(vec2 p, vec2 track_edge) {
     vec3 surface = vec3(0.0f);
     if (somewhere(max(track, apron) < 1.0f)) surface = mix(grass(p), vec3(0.80f), markings(p));
     if (somewhere(track > 0.0f)) {
-        vec2 lane = outset(track_edge, lane_width * round(track_edge.x / lane_width));
+        vec2 lane = outset(track_edge, lane_width * round(track_edge.x * (1.0f / lane_width)));
         vec3 tartan = mix(vec3(0.32f, 0.075f, 0.045f), vec3(0.75f), line(lane, 0.025f));
         real finish = line(edge_x(p.x - Frame.ground_parameters[0].x), 0.025f) * select(p.y > 0.0f, 1.0f, 0.0f);
         surface = mix(surface, mix(tartan, vec3(0.75f), finish), track);

@@ -66,27 +66,29 @@ int apart(const std::uint8_t* a, const std::uint8_t* b) {
 class NativeAndGl : public tests::GlTest {};
 
 // OpenGL has one sample a pixel and the processor four, so only pixels are compared that one surface fills: which look
-// the same in all four quarters.
+// the same in all its parts.
 TEST_F(NativeAndGl, ShowTheSameTriangles) {
     constexpr int near_enough = 2;      // [of 255] rounding of two ways to the same number
     constexpr int even = 6;             // [of 255] shading within a pixel; across an edge it is nearly always more
-    constexpr double others = 0.004;    // of those pixels: a sliver in one corner of them, and alike surfaces
+    constexpr int finer = 4;            // times as many pixels, across and down, say what a pixel holds
+    constexpr double others = 0.001;    // of those pixels: a sliver in one corner of them, and alike surfaces
     constexpr double least_even = 0.3;  // of all pixels, or nothing is shown
     if (IsSkipped()) return;
     Stadium stadium;
     for (const char* preset : presets) {
         const scene::CameraPose pose = stadium.cameras.named(preset).at(0);
         const render::Image native = stadium.natively.shoot(pose, {}), gl = stadium.by_gl.shoot(pose, {});
-        const render::Image fine = stadium.by_gl.shoot(pose, {}, 2);
+        const render::Image fine = stadium.by_gl.shoot(pose, {}, finer);
         int filled = 0, wrong = 0, worst = 0;
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x) {
                 const std::size_t at = 3 * (std::size_t{1} * y * width + x);
                 bool is_even = true;
-                for (int i = 0; i < 4; ++i)
-                    is_even &=
-                        apart(&gl.pixels[at],
-                              &fine.pixels[3 * (std::size_t(2 * y + i / 2) * fine.width + 2 * x + i % 2)]) <= even;
+                for (int i = 0; i < finer * finer; ++i) {
+                    const int fine_x = finer * x + i % finer, fine_y = finer * y + i / finer;
+                    is_even &= apart(&gl.pixels[at],
+                                     &fine.pixels[3 * (std::size_t{1} * fine_y * fine.width + fine_x)]) <= even;
+                }
                 if (!is_even) continue;
                 const int off = apart(&gl.pixels[at], &native.pixels[at]);
                 ++filled;

@@ -95,13 +95,15 @@ struct CellScene {
             triangles.push_back({tests::hostile_corners(field, chance), hostile_depths(chance)});
     }
 
-    static GridPoint sample(int x, int y) {
-        return {std::int64_t{subpixels} * x + subpixels / 2, std::int64_t{subpixels} * y + subpixels / 2};
+    static GridPoint sample(int x, int y, SamplePoint at) {
+        constexpr int step = subpixels / sample_steps;
+        return {std::int64_t{subpixels} * x + step * at.x, std::int64_t{subpixels} * y + step * at.y};
     }
 };
 
 // As a picture has it: corners that are projected, one panel a triangle. Shows who is where: their number from 1.
-std::unique_ptr<Cell> draw(const CellScene& scene) {
+template <int samples>
+std::unique_ptr<Cell<samples>> draw(const CellScene& scene) {
     const std::size_t count = 3 * scene.triangles.size();
     ScreenCorners screen(count);
     std::vector<Panel> panels;
@@ -124,7 +126,7 @@ std::unique_ptr<Cell> draw(const CellScene& scene) {
     add_visible(view, Corners({glm::vec3(0)}), screen, panels, triangles);
     std::vector<std::uint32_t> all(triangles.size());
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<std::uint32_t>(i);
-    auto cell = std::make_unique<Cell>();
+    auto cell = std::make_unique<Cell<samples>>();
     cell->x0 = scene.x0;
     cell->y0 = scene.y0;
     cell->last_column = (std::min(scene.width - scene.x0, tile_side) - 1) / block_side;
@@ -141,35 +143,64 @@ double rounding_in_blocks(const ExactTriangle& triangle) {
     return 0x1p-21 * triangle.nearest() + std::min(within_block, triangle.nearest() - triangle.farthest());
 }
 
-TEST(BackgroundRasteriser, ShowsWhatEveryPixelsCenterSees) {
+struct SampleSeen {
+    std::uint32_t surface;
+    float depth;
+};
+
+// Number `number` of a pixel of the cell.
+template <int samples>
+SampleSeen seen_in(Cell<samples>& cell, int x, int y, int number) {
+    const std::size_t block = cell.block(x / block_side, y / block_side);
+    const int column = x % block_side, row = y % block_side;
+    if (cell.is_sheet[block]) {
+        const SamplePoint at = sample_points<samples>[static_cast<std::size_t>(number)];
+        const auto pixels = [](int whole, int steps) {
+            return static_cast<float>(sample_steps * whole + steps) / sample_steps;
+        };
+        return {cell.sheet[block].surface, cell.sheet[block].at(pixels(column, at.x), pixels(row, at.y))};
+    }
+    const int i = number * block_pixels + row * block_side + column;
+    return {cell.surfaces(block)[i], cell.depths(block)[i]};
+}
+
+template <int samples>
+void expect_what_samples_see() {
     int covered = 0;
     for (unsigned round = 0; round < 400; ++round) {
         Chance chance(seed_of(round));
         CellScene scene(chance);
-        const std::unique_ptr<Cell> cell = draw(scene);
-        for (int y = 0; y < tile_side && y / block_side <= cell->last_row; ++y)
-            for (int x = 0; x < tile_side && x / block_side <= cell->last_column; ++x) {
-                const std::size_t at = Cell::block(x / block_side, y / block_side) * block_pixels +
-                                       y % block_side * block_side + x % block_side;
-                if (scene.x0 + x >= scene.width || scene.y0 + y >= scene.height) {
-                    ASSERT_EQ(cell->surface[at], finished) << "beyond the picture";
-                    continue;
-                }
-                Sample sample(0);
-                for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
-                    const ExactTriangle& triangle = scene.triangles[i];
-                    const GridPoint center = CellScene::sample(scene.x0 + x, scene.y0 + y);
-                    if (triangle.area() <= 0 || !triangle.covers(center)) continue;
-                    ++covered;
-                    sample.add(static_cast<std::uint32_t>(i + 1), triangle.depth_at(center),
-                               rounding_in_blocks(triangle));
-                }
-                ASSERT_TRUE(sample.may_show(cell->surface[at], static_cast<double>(cell->depth[at])))
-                    << "round " << round << ", " << x << ' ' << y << " shows " << cell->surface[at] << " at "
-                    << cell->depth[at] << ", expected one of" << sample.expected();
+        const std::unique_ptr<Cell<samples>> cell = draw<samples>(scene);
+        for (int i = 0; i < tile_side * tile_side * samples; ++i) {
+            const int number = i % samples, x = i / samples % tile_side, y = i / samples / tile_side;
+            if (x / block_side > cell->last_column || y / block_side > cell->last_row) continue;
+            const SampleSeen seen = seen_in(*cell, x, y, number);
+            if (scene.x0 + x >= scene.width || scene.y0 + y >= scene.height) {
+                ASSERT_EQ(seen.surface, finished) << "beyond the picture";
+                continue;
             }
+            const GridPoint place =
+                CellScene::sample(scene.x0 + x, scene.y0 + y, sample_points<samples>[static_cast<std::size_t>(number)]);
+            Sample sample(0);
+            for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
+                const ExactTriangle& triangle = scene.triangles[t];
+                if (triangle.area() <= 0 || !triangle.covers(place)) continue;
+                ++covered;
+                sample.add(static_cast<std::uint32_t>(t + 1), triangle.depth_at(place), rounding_in_blocks(triangle));
+            }
+            ASSERT_TRUE(sample.may_show(seen.surface, static_cast<double>(seen.depth)))
+                << "round " << round << ", " << x << ' ' << y << " sample " << number << " shows " << seen.surface
+                << " at " << seen.depth << ", expected one of" << sample.expected();
+        }
     }
-    EXPECT_GT(covered, 100000);
+    EXPECT_GT(covered, 100000 * samples);
+}
+
+TEST(BackgroundRasteriser, ShowsWhatEveryPixelsCenterSees) {
+    expect_what_samples_see<1>();
+}
+TEST(BackgroundRasteriser, ShowsWhatEveryPixelsSamplesSee) {
+    expect_what_samples_see<most_samples>();
 }
 
 // ---- near people ----

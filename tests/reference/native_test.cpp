@@ -121,7 +121,9 @@ protected:
 };
 
 TEST_P(NativeStadiumPicture, IsTheReferences) {
-    constexpr Exceptions exceptions{0, 1.0 / 2000};
+    // Seats that are far are thinner than it is between the places that the reference looks at, and any of four samples
+    // may meet one there.
+    constexpr Exceptions exceptions{1.0 / 10000, 1.0 / 2000};
     for (const Decision& decision : {Decision{}, Decision{State::slowed, 1, 0}, Decision{State::slowed, 30, 0}}) {
         const reference::Frame frame = shoot(decision);
         expect_alike(frame.drawn, frame.expected, exceptions,

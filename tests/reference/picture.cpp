@@ -24,10 +24,19 @@ double as_good_as_near(double depth) {
 // A normal so nearly at right angles to the ray may be taken to face either way: it is packed within 0.017 rad.
 constexpr double edge_on = 0.02;
 
+// What is seen where nobody is: structure, ground and sky.
+struct Behind {
+    Picture picture;
+    std::vector<double> depth;  // [m] by pixel, then place
+};
+
 // Two passes over everything: first how near the nearest is in each place, then who is that near.
 class Canvas {
 public:
-    explicit Canvas(const Scene& scene) : scene_(scene), camera_(scene.camera), samples_(scene.samples) {
+    // `samples`: so many a pixel, across and down. `shift`: off every place, what is looked at there; it is shaded as
+    // it is in the place.
+    explicit Canvas(const Scene& scene, int samples = 1, glm::dvec2 shift = {})
+        : scene_(scene), camera_(scene.camera), samples_(samples), shift_(shift) {
         camera_.width *= samples_;
         camera_.height *= samples_;
         const std::size_t pixels = static_cast<std::size_t>(camera_.width) * camera_.height;
@@ -36,13 +45,21 @@ public:
                     std::vector<std::vector<Shade>>(pixels), std::vector<bool>(pixels)};
     }
 
-    Picture draw() {
+    Behind draw_behind() {
         for (const bool collecting : {false, true}) {
             collecting_ = collecting;
-            for (const Person& person : scene_.people) person.points == 0 ? draw_mesh(person) : draw_splats(person);
             if (scene_.structure) draw_structure();
         }
         draw_sky();
+        return {std::move(picture_), std::move(nearest_)};
+    }
+
+    Picture draw_people(const Behind& behind) {
+        for (const bool collecting : {false, true}) {
+            collecting_ = collecting;
+            for (const Person& person : scene_.people) person.points == 0 ? draw_mesh(person) : draw_splats(person);
+            draw(behind);
+        }
         return std::move(picture_);
     }
 
@@ -53,10 +70,9 @@ private:
         bool centre;  // of a pixel
     };
 
-    // Calls `shade(spot)` for each place that the triangle is nearest in. `block`: so many pixels, across and down, are
-    // looked at in the places of their common middle.
+    // Calls `shade(spot)` for each place that the triangle is nearest in.
     template <typename ShadeOf>
-    void triangle(const std::array<glm::dvec3, 3>& corners, bool two_sided, int block, ShadeOf shade) {
+    void triangle(const std::array<glm::dvec3, 3>& corners, bool two_sided, ShadeOf shade) {
         // Homogeneous pixel coordinates: x and y times depth, and depth (Olano and Greer 1997). No corner need be in
         // front of the camera.
         std::array<glm::dvec3, 3> h;
@@ -70,8 +86,6 @@ private:
         }
         if (std::max({h[0].z, h[1].z, h[2].z}) < Camera::near) return;
         if (behind) low = {0, 0}, high = {camera_.width, camera_.height};
-        low -= block - 1.0;
-        high += block - 1.0;
         if (high.x < -1 || high.y < -1 || low.x > camera_.width + 1 || low.y > camera_.height + 1) return;
         const double determinant = glm::dot(h[0], glm::cross(h[1], h[2]));
         // Pixels count downward, so counter-clockwise is negative.
@@ -85,22 +99,21 @@ private:
         };
         for_each_pixel(low, high, [&](int x, int y) {
             for (std::size_t place = 0; place < places.size(); ++place) {
-                const double px = middle_of(x, block, places[place].x), py = middle_of(y, block, places[place].y);
-                const glm::dvec3 over_depth = at(px, py);
+                const double px = x + 0.5 + places[place].x, py = y + 0.5 + places[place].y;
+                const glm::dvec3 over_depth = at(px + shift_.x, py + shift_.y);
                 if (over_depth.x < 0 || over_depth.y < 0 || over_depth.z < 0) continue;
                 const double depth = 1 / (over_depth.x + over_depth.y + over_depth.z);
                 if (!(depth >= Camera::near)) continue;
                 put(x, y, place, depth, true, [&] {
-                    const glm::dvec3 right = at(px + block, py), down = at(px, py + block);
-                    return shade(Spot{over_depth * depth, right / (right.x + right.y + right.z),
-                                      down / (down.x + down.y + down.z), place == 0});
+                    const auto share_at = [&](double sx, double sy) {
+                        const glm::dvec3 there = at(sx, sy);
+                        return there / (there.x + there.y + there.z);
+                    };
+                    return shade(Spot{share_at(px, py), share_at(px + 1, py), share_at(px, py + 1), place == 0});
                 });
             }
         });
     }
-
-    // Of the block that a pixel is in, or `beside` [blocks] it.
-    static double middle_of(int pixel, int block, double beside) { return block * (pixel / block + 0.5 + beside); }
 
     // x, y [px] times depth, and depth [m].
     glm::dvec3 homogeneous(const glm::dvec3& relative) const {
@@ -193,7 +206,7 @@ private:
         }
         for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
             const std::uint32_t a = mesh.indices[i], b = mesh.indices[i + 1], c = mesh.indices[i + 2];
-            triangle({at[a], at[b], at[c]}, open(mesh), 1, [&](const Spot& spot) {
+            triangle({at[a], at[b], at[c]}, open(mesh), [&](const Spot& spot) {
                 const auto blend = [](const auto& x, const auto& y, const auto& z, const glm::dvec3& by) {
                     return by.x * x + by.y * y + by.z * z;
                 };
@@ -353,7 +366,7 @@ private:
             for (std::size_t k = 0; k < 3; ++k) at[k] = glm::dvec3(corner[k]->position) - camera_.position;
             const bool is_ground = corner[2]->color.a == static_cast<std::uint8_t>(scene::Surface::ground);
             const glm::dvec3 painted = stored(linear(corner[2]->color) * light_on(corner[2]->normal));
-            triangle(at, false, samples_, [&](const Spot& spot) {
+            triangle(at, false, [&](const Spot& spot) {
                 if (!is_ground) return Shade::exactly(painted);
                 const auto xz = [&](const glm::dvec3& by) {
                     const glm::dvec3 world = camera_.position + by.x * at[0] + by.y * at[1] + by.z * at[2];
@@ -379,8 +392,7 @@ private:
                 picture_.sky[pixel] = picture_.shades[pixel].empty();
                 for (std::size_t place = 0; place < places.size(); ++place) {
                     if (nearest_[pixel * places.size() + place] < INFINITY) continue;
-                    const Shade shown = sky(
-                        camera_.ray(middle_of(x, samples_, places[place].x), middle_of(y, samples_, places[place].y)));
+                    const Shade shown = sky(camera_.ray(x + 0.5 + places[place].x, y + 0.5 + places[place].y));
                     add(pixel, shown);
                     if (place == 0) picture_.colors[pixel] = shown.best;
                 }
@@ -388,9 +400,24 @@ private:
         }
     }
 
+    void draw(const Behind& behind) {
+        for (int y = 0; y < camera_.height; ++y)
+            for (int x = 0; x < camera_.width; ++x) {
+                const std::size_t pixel = static_cast<std::size_t>(y) * camera_.width + x;
+                const std::size_t there = static_cast<std::size_t>(y / samples_) * behind.picture.width + x / samples_;
+                if (collecting_) picture_.sky[pixel] = picture_.shades[pixel].empty() && behind.picture.sky[there];
+                for (std::size_t place = 0; place < places.size(); ++place)
+                    for (Shade shade : behind.picture.shades[there]) {
+                        shade.best = behind.picture.colors[there];
+                        put(x, y, place, behind.depth[there * places.size() + place], true, [&] { return shade; });
+                    }
+            }
+    }
+
     const Scene& scene_;
     Camera camera_;  // of samples
     int samples_;
+    glm::dvec2 shift_;
     bool collecting_ = false;
     std::vector<double> nearest_;  // [m] by pixel, then place
     std::map<std::pair<const model::Mesh*, int>, std::vector<Level>> mipmaps_;
@@ -434,11 +461,37 @@ Picture filtered(const Picture& fine, int side) {
     return picture;
 }
 
+// Of four samples in a pixel, in a square that is turned: the mean of their light, and the second farthest's depth.
+Behind draw_smoothly(const Scene& scene) {
+    constexpr std::array<glm::dvec2, 4> samples = {glm::dvec2(-1, -3) / 8.0, glm::dvec2(3, -1) / 8.0,
+                                                   glm::dvec2(-3, 1) / 8.0, glm::dvec2(1, 3) / 8.0};
+    std::array<Behind, 4> of;
+    for (std::size_t i = 0; i < samples.size(); ++i) of[i] = Canvas(scene, 1, samples[i]).draw_behind();
+    // Side by side, a pixel's four make it.
+    const int width = scene.camera.width, height = scene.camera.height;
+    Picture fine{2 * width, 2 * height, {}, {}, {}};
+    for (int y = 0; y < 2 * height; ++y)
+        for (int x = 0; x < 2 * width; ++x) {
+            const Picture& from = of[static_cast<std::size_t>(2 * (y % 2) + x % 2)].picture;
+            const std::size_t pixel = static_cast<std::size_t>(y / 2) * width + x / 2;
+            fine.colors.push_back(from.colors[pixel]);
+            fine.shades.push_back(from.shades[pixel]);
+            fine.sky.push_back(from.sky[pixel]);
+        }
+    Behind behind{filtered(fine, 2), {}};
+    for (std::size_t i = 0; i < of[0].depth.size(); ++i) {
+        std::array<double, 4> depths = {of[0].depth[i], of[1].depth[i], of[2].depth[i], of[3].depth[i]};
+        std::sort(depths.begin(), depths.end());
+        behind.depth.push_back(depths[2]);
+    }
+    return behind;
+}
+
 }  // namespace
 
 Picture draw(const Scene& scene) {
-    Picture picture = Canvas(scene).draw();
-    return scene.samples > 1 ? filtered(picture, scene.samples) : picture;
+    if (scene.samples == 1) return Canvas(scene).draw_people(Canvas(scene).draw_behind());
+    return filtered(Canvas(scene, scene.samples).draw_people(draw_smoothly(scene)), scene.samples);
 }
 
 render::Image Picture::image() const {

@@ -86,8 +86,9 @@ struct Scene {
     scene::Oval oval;
     double stand_offset = 0;  // [m] from the track's inner line to where the stands begin
     double splat_size = 0;    // [px]
-    // Across a pixel, and down, that people have who are triangles; structure and sky have one, in the middle. Who is
-    // splats is drawn only with one.
+    // Across a pixel, and down, that people have who are triangles. With more than one, structure and sky have four in
+    // a pixel, whose light is that of its middle, and as a whole the depth of the second farthest; else one, in the
+    // middle. Who is splats is drawn only with one.
     int samples = 1;
 };
 
