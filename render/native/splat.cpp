@@ -6,6 +6,8 @@
 // After it.
 #include <hwy/highway.h>
 
+#include <hwy/cache_control.h>
+
 #include <algorithm>
 #include <bit>
 
@@ -66,6 +68,12 @@ HWY_INLINE Vector shown(const SplatPerson& person, int chunk, int lane) {
     const Vector last = all(static_cast<std::int16_t>(person.count - 1));
     part = hn::IfThenElse(hn::Eq(index, last), times(part, all(person.last_share)), part);
     return hn::IfThenZeroElse(hn::Gt(index, last), part);
+}
+
+// A chunk that is read soon.
+HWY_INLINE void prefetch(const SplatPerson& person, int chunk) {
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(&person.chunk(chunk));
+    for (std::size_t at = 0; at < sizeof(PosedChunk); at += 64) hwy::Prefetch(bytes + at);
 }
 
 int chunks_of(const SplatPerson& person) {
@@ -140,6 +148,7 @@ float sum_up(const SplatPerson& person, const SplatLight& light, Parts& parts) {
     auto shown_sum = hn::Zero(wide);
     auto red = hn::Zero(wide), green = hn::Zero(wide), blue = hn::Zero(wide);
     for (int chunk = 0; chunk < chunks_of(person); ++chunk) {
+        prefetch(person, chunk + 2);
         for (int lane = 0; lane < chunk_points; lane += static_cast<int>(hn::Lanes(lanes))) {
             const int at = chunk * chunk_points + lane;
             const Vector part = shown(person, chunk, lane);
@@ -285,6 +294,7 @@ void Splat(const SplatPerson& person, const SplatLight& light, const Patch& to) 
     Staged staged;
     for (int chunk = 0; chunk < chunks_of(person); ++chunk) {
         staged.used = 0;
+        prefetch(person, chunk + 2);
         for (int lane = 0; lane < chunk_points; lane += static_cast<int>(hn::Lanes(lanes)))
             stage(person, light, patch, place, area, person.total > 0.0f ? &parts : nullptr, chunk, lane, staged);
         for (std::uint32_t left = staged.used; left != 0; left &= left - 1) add(staged, patch, std::countr_zero(left));
