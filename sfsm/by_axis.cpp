@@ -13,7 +13,7 @@ constexpr int detail_steps = 8;
 constexpr double frame_amount = 0.3;
 constexpr PriceBelief belief{1 + detail_steps, {1, 1, 1, 1, 1, 1, 1, 1, 1}, 0.7, {}};
 
-constexpr double much_over = 1.03;          // [target] at which a rise has failed
+constexpr double much_over = 1.03;          // [aim] at which a rise has failed
 constexpr double out_of_reach_band = 0.05;  // over the aim, relative
 
 Amounts amounts_of(double detail) {
@@ -50,17 +50,17 @@ void AxisLaw::turn() {
     if (least_ms > aim_.target_ms) {
         turn_out_of_reach(detail_for(aim_ms), std::exp(now.log_ms) / aim_ms);
     } else if (!aim_.is_kept(now, aim_ms)) {
-        turn_to(detail_for(sure_ms), std::exp(now.log_ms));
+        turn_to(detail_for(sure_ms), std::exp(now.log_ms), aim_ms);
     }
     if (detail_ != before) aim_.status.reason = aim_.reason_to_move(now, aim_ms, least_ms);
     aim_.believe(costs_.predict(amounts_of(detail_)), costs_);
 }
 
-void AxisLaw::turn_to(double detail, double now_ms) {
+void AxisLaw::turn_to(double detail, double now_ms, double aim_ms) {
     if (detail > detail_) {
         detail_ = ceiling_.rise(detail_, detail, now_ms);
     } else if (detail < detail_) {
-        detail_ = now_ms > much_over * aim_.target_ms ? ceiling_.fall(detail_, detail) : detail;
+        detail_ = now_ms > much_over * aim_ms ? ceiling_.fall(detail_, detail) : detail;
     }
 }
 

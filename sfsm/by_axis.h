@@ -31,7 +31,7 @@ private:
     };
 
     void turn();
-    void turn_to(double detail, double now_ms);
+    void turn_to(double detail, double now_ms, double aim_ms);
     void turn_out_of_reach(double detail, double over_aim);
     double predicted_ms(double detail) const;
     double detail_for(double ms) const;

@@ -14,9 +14,11 @@ constexpr double slowest_noise = 0.015;                  // [share] that the est
 constexpr double huber = 3;                              // [sigmas] from which a time is an outlier
 constexpr double small_step = 0.05;                      // [ln] a residual that needs no further turn
 constexpr int most_turns = 6;
-constexpr double gain_memory = 60;                      // [samples] that the gain is averaged over
-constexpr double price_walk = 0.0003;                   // [share of price and spread] a price may drift per sample
-constexpr double least_walker = 0.02;                   // [first guess] a cheaper price drifts as if it cost this much
+constexpr double well_known = 0.5;     // [sigmas of noise] uncertainty below which a frame tells of the tail
+constexpr double heaviest = 2;         // [normal tails] no heavier one hides a shift
+constexpr double gain_memory = 60;     // [samples] that the gain is averaged over
+constexpr double price_walk = 0.0003;  // [share of price and spread] a price may drift per sample
+constexpr double least_walker = 0.02;  // [first guess] a cheaper price drifts as if it cost this much
 constexpr double most_price = 1e4, least_fixed = 1e-4;  // [first guess]
 constexpr double disagreement = 8;                      // [sigmas of noise] two times this far apart are outliers
 constexpr double likeness = 2;                          // [sigmas] within which a gain is the one before the last shift
@@ -79,7 +81,7 @@ void CostModel::observe(const Amounts& amounts, double ms) {
     ++samples_;
     forget();
     learn_noise(seen);
-    const int shown = detector_.add(correct(seen));
+    const int shown = detector_.add(surprise(correct(seen)));
     if (shown > 0) take_shift(shown);
 }
 
@@ -125,6 +127,13 @@ double CostModel::correct(const Seen& seen) {
     return standardised;
 }
 
+// Two slow frames in a row would be a shift, were the noise normal. Of a heavy tail they come by chance, so they are
+// measured by the tail: up to a point, since a model that is wrong looks like a tail, too.
+double CostModel::surprise(double standardised) const {
+    if (standardised <= 0) return standardised;
+    return standardised / std::clamp(tail() / (Tail::normal * noise_), 1.0, heaviest);
+}
+
 // A price below its least is moved up to it. The prices that are correlated with it move along: else part of the time
 // would be explained by nothing.
 void CostModel::limit() {
@@ -158,13 +167,15 @@ void CostModel::forget() {
 }
 
 // Moves the noise a step towards the median difference between neighbours. The step doesn't depend on the difference,
-// so outliers don't count. Nor do frames whose time was not known well.
+// so outliers don't count. Nor do frames whose time was not known well; for the tail it has to be known better still,
+// since a price that is wrong looks like one.
 void CostModel::learn_noise(const Seen& seen) {
     const Prediction prediction = predict(seen.amounts);
     if (prediction.uncertainty > noise_) return;
     const double residual = seen.log_ms - prediction.log_ms;
     const double difference = std::abs(residual - last_residual_);
     last_residual_ = residual;
+    if (prediction.uncertainty < well_known * noise_) tail_.add(residual, noise_);
     if (residuals_++ == 0) return;
     const double step = 1 + std::max(slowest_noise, 1.0 / residuals_);
     residuals_ = std::min(residuals_, 1000);

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "sfsm/shift.h"
+#include "sfsm/tail.h"
 
 namespace sfsm {
 
@@ -55,6 +56,7 @@ public:
     double price(int term) const;                    // [ms] per unit of amount, gain left out
     double price_uncertainty(int term) const;        // 1 sigma [ms]
     double noise() const { return noise_; }          // 1 sigma of a single frame, relative
+    double tail() const { return tail_.excess(); }   // Tail::percentile of ln(time / prediction)
     std::int64_t shifts() const { return shifts_; }  // of level, that were found so far
     std::int64_t samples() const { return samples_; }
 
@@ -73,6 +75,7 @@ private:
     void start(const Amounts& amounts, double ms);
     double log_time(const Amounts& amounts, Vector& gradient) const;
     double correct(const Seen& seen);
+    double surprise(double standardised) const;
     bool is_strange(const Seen& seen) const;
     void limit();
     void forget();
@@ -92,6 +95,7 @@ private:
     std::int64_t samples_ = 0;
     std::int64_t shifts_ = 0;
     double left_log_gain_ = 0, left_variance_ = -1;  // of the level before the last shift; < 0: there was none
+    Tail tail_;
     ShiftDetector detector_;
     std::array<Seen, ShiftDetector::window> recent_{};  // a ring
 };

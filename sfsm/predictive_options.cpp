@@ -11,6 +11,8 @@ void PredictiveOptions::validate() const {
     };
     require(headroom >= 0 && headroom <= 3, "headroom in [0, 3]");
     require(most_headroom >= 0 && most_headroom <= 0.5, "most_headroom in [0, 0.5]");
+    require(tail_limit >= 1 && tail_limit <= 2, "tail_limit in [1, 2]");
+    require(lowest_aim > 0 && lowest_aim <= 1, "lowest_aim in (0, 1]");
     require(caution >= 0 && caution <= 3, "caution in [0, 3]");
     require(probes >= 0, "probes from 0");
     require(band >= 0 && band <= 0.2, "band in [0, 0.2]");

@@ -7,6 +7,8 @@ struct PredictiveOptions {
     // The aim: how far below the target frames are aimed.
     double headroom = 0.25;         // [sigmas of one frame's noise], [0, 3]
     double most_headroom = 0.0075;  // [share of the target] the headroom is never more, [0, 0.5]
+    double tail_limit = 1.05;       // [share of the target] the slowest frames but 3 % are to take no more, [1, 2]
+    double lowest_aim = 0.92;       // [share of the target] but for them it is lowered no further, (0, 1]
     double caution = 0.25;          // [sigmas of the prediction] and lower by this, since it may be wrong, [0, 3]
 
     // A decision is kept while its predicted time is as near to the aim as the wider of these two.

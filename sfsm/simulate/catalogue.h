@@ -30,6 +30,7 @@ Scenario target_step_forecast();
 Scenario camera_cut();
 Scenario crowd_pours_in();
 Scenario throttled();
+Scenario heavy_tail();
 
 // The experiments of Lyu et al. 2018, section 4: paper_scenarios.cpp.
 Scenario paper_1();

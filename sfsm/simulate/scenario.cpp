@@ -37,6 +37,7 @@ constexpr std::array entries = {
     Entry{"camera-cut", camera_cut},
     Entry{"crowd-pours-in", crowd_pours_in},
     Entry{"throttled", throttled},
+    Entry{"heavy-tail", heavy_tail},
     Entry{"paper-1", paper_1},
     Entry{"paper-1-noisy", paper_1_noisy},
     Entry{"paper-2", paper_2},

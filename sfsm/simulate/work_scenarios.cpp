@@ -114,4 +114,15 @@ Scenario throttled() {
     return scenario;
 }
 
+// What the native demo meets on two cores of a shared machine: now and then somebody else's work comes first.
+Scenario heavy_tail() {
+    Scenario scenario = scenario_of("one view, 3 % noise; in 6 % of the frames 5 to 20 % of t on top, with forecast",
+                                    {wide}, only_view);
+    scenario.spike_share = 0.06;
+    scenario.spike_low = 0.05;
+    scenario.spike_high = 0.2;
+    scenario.steady = {{200, 1800}};
+    return scenario;
+}
+
 }  // namespace sfsm::simulate

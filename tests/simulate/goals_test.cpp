@@ -47,6 +47,14 @@ TEST(DefaultLaw, ChangesNothingInTheQuiet) {
     }
 }
 
+TEST(DefaultLaw, HoldsAHeavyTailBelowFivePercentOver) {
+    const Row row = row_of("heavy-tail");
+    EXPECT_LE(row.median.over_5pct, 0.035);
+    EXPECT_GE(row.oracle_over_5pct, 0.1) << "and it is heavy";
+    EXPECT_GE(row.median.quality, 0.96);
+    EXPECT_LE(row.median.reversals_per_1000, 2);
+}
+
 TEST(DefaultLaw, IsBackAfterEveryInterruption) {
     for (const char* scenario : {"hitch", "pause", "loading"}) {
         const Row row = row_of(scenario);
