@@ -7,7 +7,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
-#include <bitset>
+#include <array>
 #include <cmath>
 
 #include "render/view.h"
@@ -240,20 +240,24 @@ void CoverTile::lay_near_row(int y, Cover* to) const {
 
 // A row of pixels out of the cells, where they are nearer than what a row of nearness says.
 void CoverTile::stretch_row(int y, const float* nearness) {
-    std::fill(row_.begin(), row_.end(), Cover{});
     const Rect& touched = cells_.touched();
     const float at = grid_.at(y), cell = std::floor(at);
     const int above = static_cast<int>(cell);
-    if (above + 1 < touched.y0 || above >= touched.y1) return;
+    if (above + 1 < touched.y0 || above >= touched.y1) {
+        std::fill(row_.begin(), row_.end(), Cover{});
+        return;
+    }
     const int row = above - grid_.cells.y0;
     const CellRows rows{cells_.cover(row),        cells_.cover(row + 1),           cells_.nearness(row),
                         cells_.nearness(row + 1), grid_.cells.x1 - grid_.cells.x0, at - cell};
     const auto column = [&](int pixel) { return std::clamp(pixel - grid_.tile.x0, 0, grid_.tile.x1 - grid_.tile.x0); };
     const int first = column(grid_.pixels_of(touched.x0).first), end = column(grid_.pixels_of(touched.x1 - 1).end);
     constexpr int whole = 16;  // no vector is longer
+    const int from = first / whole * whole, to = (end + whole - 1) / whole * whole;
+    std::fill(row_.begin(), row_.begin() + from, Cover{});
+    std::fill(row_.begin() + to, row_.end(), Cover{});
     HWY_DYNAMIC_DISPATCH(StretchRow)
-    (rows, columns_, nearness, first / whole * whole, end, {line_.data(), share_line_.data(), nearness_line_.data()},
-     row_.data());
+    (rows, columns_, nearness, from, to, {line_.data(), share_line_.data(), nearness_line_.data()}, row_.data());
 }
 
 void CoverTile::lay_near_on_pixels() {
@@ -271,25 +275,25 @@ void CoverTile::lay_near_on_pixels() {
     close_full_cells();
 }
 
-// Those of which no pixel that takes from them is open.
+// Those of which no pixel that takes from them is open, nor any in the same group of group_cells.
 void CoverTile::close_full_cells() {
     const Tile& tile = grid_.tile;
     const int width = tile.x1 - tile.x0, height = tile.y1 - tile.y0;
-    std::array<std::bitset<tile_side>, tile_side> open;
-    for (int y = 0; y < height; ++y) {
-        const Cover* kept = row_of(kept_, tile.y0 + y);
-        for (int x = 0; x < width; ++x) open[y][x] = kept[x].share <= cover_full - closed;
+    std::array<std::uint64_t, tile_side> open;
+    for (int y = 0; y < height; ++y) open[y] = open_groups(row_of(kept_, tile.y0 + y), width);
+    std::array<std::uint64_t, CellPlane<Cover>::most_cells> windows;
+    for (int column = grid_.cells.x0; column < grid_.cells.x1; ++column) {
+        const Span xs = grid_.pixels_of(column);
+        const int first = std::max(xs.first - tile.x0, 0), last = std::min(xs.end - tile.x0, width) - 1;
+        const auto up_to = [](int pixel) { return (std::uint64_t{2} << (pixel / group_cells)) - 1; };
+        windows[column - grid_.cells.x0] = first > last ? 0 : up_to(last) & ~(up_to(first) >> 1);
     }
     for (int row = grid_.cells.y0; row < grid_.cells.y1; ++row) {
         const Span ys = grid_.pixels_of(row);
-        std::bitset<tile_side> any;
+        std::uint64_t any = 0;
         for (int y = std::max(ys.first - tile.y0, 0); y < std::min(ys.end - tile.y0, height); ++y) any |= open[y];
-        for (int column = grid_.cells.x0; column < grid_.cells.x1; ++column) {
-            const Span xs = grid_.pixels_of(column);
-            bool is_open = false;
-            for (int x = std::max(xs.first - tile.x0, 0); x < std::min(xs.end - tile.x0, width); ++x) is_open |= any[x];
-            if (!is_open) cells_.close(column - grid_.cells.x0, row - grid_.cells.y0);
-        }
+        for (int column = 0; column < grid_.cells.x1 - grid_.cells.x0; ++column)
+            if ((any & windows[column]) == 0) cells_.close(column, row - grid_.cells.y0);
     }
 }
 

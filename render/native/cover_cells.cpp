@@ -174,7 +174,6 @@ void lay_rows(const SplatPerson& person, const Patch& patch, const CoverPlanes& 
 
 }  // namespace
 
-// Which groups of cells can still be seen through, a bit each. The last one's cells beyond `count` count too.
 std::uint64_t OpenGroups(const Cover* cover, int count) {
     std::uint64_t open = 0;
     for (int x = 0; x < count; x += group_cells) open |= std::uint64_t{is_open(cover + x)} << (x / group_cells);
@@ -195,6 +194,10 @@ namespace render::native {
 HWY_EXPORT(OpenGroups);
 HWY_EXPORT(LayPatch);
 
+std::uint64_t open_groups(const Cover* cover, int count) {
+    return HWY_DYNAMIC_DISPATCH(OpenGroups)(cover, count);
+}
+
 void CoverCells::begin(const Rect& cells, bool keeps_depths) {
     cells_ = cells;
     touched_ = {};
@@ -210,17 +213,15 @@ Rect CoverCells::open_part(const Rect& cells) const {
               std::min(cells.y1, cells_.y1)};
     if (part.empty()) return {};
     const int width = part.x1 - part.x0;
-    const auto open_groups = [&](int y) {
-        return HWY_DYNAMIC_DISPATCH(OpenGroups)(cover_.at(part.x0 - cells_.x0, y - cells_.y0), width);
-    };
+    const auto open = [&](int y) { return open_groups(cover_.at(part.x0 - cells_.x0, y - cells_.y0), width); };
     std::uint64_t groups = 0;
-    while (part.y0 < part.y1 && (groups = open_groups(part.y0)) == 0) ++part.y0;
-    while (part.y0 < part.y1 && open_groups(part.y1 - 1) == 0) --part.y1;
+    while (part.y0 < part.y1 && (groups = open(part.y0)) == 0) ++part.y0;
+    while (part.y0 < part.y1 && open(part.y1 - 1) == 0) --part.y1;
     if (part.empty()) return {};
     // Every group is known to be open or not once one of its rows is.
     const int last = (width - 1) / group_cells;
     for (int y = part.y0 + 1; y < part.y1 && ((groups & 1) == 0 || (groups >> last & 1) == 0); ++y)
-        groups |= open_groups(y);
+        groups |= open(y);
     part.x1 = std::min(part.x1, part.x0 + group_cells * static_cast<int>(std::bit_width(groups)));
     part.x0 += group_cells * std::countr_zero(groups);
     return part;

@@ -26,6 +26,9 @@ struct Flock {
     std::uint16_t padding[2] = {};
 };
 
+// Which groups of group_cells of a row can still be seen through, a bit each. The last one's beyond `count` count too.
+std::uint64_t open_groups(const Cover* cover, int count);
+
 // One a thread.
 class CoverCells {
 public:
