@@ -165,6 +165,34 @@ void compare(benchmark::State& state, const std::string& preset) {
     report_decision(state, preset);
 }
 
+// How much a frame's time varies though its work doesn't: two frames, drawn in turn, each against its own median. The
+// bound on how many frames any law can hold.
+void vary(benchmark::State& state, const std::string& preset) {
+    constexpr std::size_t rounds = 600, kinds = 2;
+    constexpr double near_enough = 1.05, percentile = 0.97;
+    bench::Shooting& here = stadium();
+    set_sizes();
+    Film film(preset, Film::Camera::moves, bench::points_of(1));
+    const render::Frame frames[kinds] = {film.choose(here.native), film.choose(here.native)};
+    Times times[kinds];
+    for (auto _ : state)
+        for (std::size_t i = 0; i < kinds * rounds; ++i)
+            times[i % kinds].take([&] {
+                here.native_renderer.begin(frames[i % kinds].view);
+                here.native.draw(frames[i % kinds]);
+            });
+    std::vector<double> ratios;
+    for (const Times& of : times)
+        for (const double ms : of.wall) ratios.push_back(ms / median(of.wall));
+    std::sort(ratios.begin(), ratios.end());
+    const auto over = std::upper_bound(ratios.begin(), ratios.end(), near_enough);
+    const auto count = static_cast<double>(ratios.size());
+    state.counters["median_ms"] = median(times[0].wall);
+    state.counters["over_by_5_percent"] = static_cast<double>(ratios.end() - over) / count;
+    state.counters["percentile_97"] = ratios[static_cast<std::size_t>(percentile * count)];
+    state.counters["worst"] = ratios.back();
+}
+
 // --- the price of a piece --------------------------------------------------------------------------------------------
 
 // Draws again and again the people of one representation that `decision` shows, or all of them, less the time of a
@@ -284,6 +312,8 @@ void register_frames() {
                                            Film::Camera::moves));
         timed(benchmark::RegisterBenchmark(("ratio/" + preset).c_str(), compare, preset))->Iterations(1);
     }
+    for (const char* preset : {"still", "medium"})
+        timed(benchmark::RegisterBenchmark((std::string("noise/") + preset).c_str(), vary, preset))->Iterations(1);
     timed(benchmark::RegisterBenchmark("nobody/standing", draw_nobody, Film::Camera::stands));
     timed(benchmark::RegisterBenchmark("nobody/moving", draw_nobody, Film::Camera::moves));
 }
