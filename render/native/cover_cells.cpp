@@ -59,7 +59,7 @@ Vector spread(Vector v) {
     return hn::TableLookupBytes(v, hn::BitCast(cells, hn::LoadDup128(bytes, from)));
 }
 
-// 1 / coverage where that is over 1, 32767 = 1; over 2 it counts as 2. Newton's step for 1 / x, twice, from the
+// 1 / coverage where that is over 1, 32767 = 1; at most 2. Newton's step for 1 / x, twice, from the
 // straight line that is least off over [1, 2], 24/17 - 8/17 x.
 Vector thinning(Vector share) {
     const auto x = hn::Min(hn::Max(share, all(cell_full)), all(2 * cell_full - 1));
@@ -130,7 +130,9 @@ void lay_cells(const SplatPerson& person, const Depths& depths, std::int16_t* ce
     const auto light = hn::BitCast(cells, hn::ConcatEven(words, b, a));
     const auto back = spread<0>(hn::BitCast(cells, hn::ConcatOdd(words, b, a)));
     const auto share = spread<3>(light);
-    const auto once = hn::Min(hn::MulFixedPoint15(light, thinning(share)), all(cell_full));
+    const auto is_twice = hn::Gt(share, all(2 * cell_full - 1));
+    const auto halved = [&](auto v) HWY_ATTR { return hn::IfThenElse(is_twice, hn::ShiftRight<1>(v), v); };
+    const auto once = hn::Min(hn::MulFixedPoint15(halved(light), thinning(halved(share))), all(cell_full));
     const auto unit = hn::ShiftLeft<2>(hn::Sub(once, hn::ShiftRight<13>(once)));  // 8192 -> 32764
 
     auto* to = reinterpret_cast<std::int16_t*>(planes.cover + at);
@@ -220,8 +222,7 @@ Rect CoverCells::open_part(const Rect& cells) const {
     if (part.empty()) return {};
     // Every group is known to be open or not once one of its rows is.
     const int last = (width - 1) / group_cells;
-    for (int y = part.y0 + 1; y < part.y1 && ((groups & 1) == 0 || (groups >> last & 1) == 0); ++y)
-        groups |= open(y);
+    for (int y = part.y0 + 1; y < part.y1 && ((groups & 1) == 0 || (groups >> last & 1) == 0); ++y) groups |= open(y);
     part.x1 = std::min(part.x1, part.x0 + group_cells * static_cast<int>(std::bit_width(groups)));
     part.x0 += group_cells * std::countr_zero(groups);
     return part;

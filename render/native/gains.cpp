@@ -10,7 +10,7 @@ namespace render::native {
 namespace {
 
 constexpr int trials = 96;
-constexpr float most_gain = 1.5f;
+constexpr float most_gain = 3.0f;
 
 double covered(const std::vector<Gains::Trial>& all, double gain) {
     double sum = 0;

@@ -28,9 +28,9 @@ public:
     float at(float cells, float points) const;
 
 private:
-    static constexpr int sizes = 14, densities = 5;  // octaves from these on
+    static constexpr int sizes = 14, densities = 7;  // octaves from these on
     static constexpr float first_size = 0.25f;       // [cells]
-    static constexpr float first_density = 4.0f;     // points a cell, those that face away too
+    static constexpr float first_density = 1.0f;     // points a cell, those that face away too
 
     std::array<std::array<float, densities>, sizes> gains_{};
     bool is_measured_ = false;

@@ -200,6 +200,13 @@ void color(const Sight& sight, SplatPerson& out) {
             out.mean_light[channel] += lights[slot][channel] * (out.palette[channel][slot] / unit);
 }
 
+// [px] The side of cells for S. Cells that are hardly larger than pixels cost more to stretch than they save.
+float cell_of(float splat_size) {
+    constexpr float finest = 1.4142136f, steep_until = 2.0f;
+    if (splat_size >= steep_until) return splat_size;
+    return std::max(1.0f, 1.0f + (splat_size - finest) * (steep_until - 1.0f) / (steep_until - finest));
+}
+
 }  // namespace
 
 PointPeople::PointPeople(std::span<const figures::Figure> figures, const scene::Light& light)
@@ -213,7 +220,7 @@ PointPeople::PointPeople(std::span<const figures::Figure> figures, const scene::
 void PointPeople::prepare(const View& view, double splat_size, std::span<const Person* const> people) {
     for (const Person* person : people)
         if (!kinds_[person->character]) make_kind(person->character);
-    cell_ = std::max(1.0f, static_cast<float>(splat_size));
+    cell_ = cell_of(static_cast<float>(splat_size));
     people_.resize(people.size());
     bounds_.resize(people.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, people.size(), 256), [&](const auto& range) {

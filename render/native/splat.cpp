@@ -4,9 +4,8 @@
 #define HWY_TARGET_INCLUDE "render/native/splat.cpp"
 #include <hwy/foreach_target.h>
 // After it.
-#include <hwy/highway.h>
-
 #include <hwy/cache_control.h>
+#include <hwy/highway.h>
 
 #include <algorithm>
 #include <bit>
@@ -202,7 +201,8 @@ void stage(const SplatPerson& person, const SplatLight& light, const Patch& patc
     for (int axis = 0; axis < 3; ++axis) position[axis] = hn::Load(lanes, &person.chunk(chunk).position[axis][lane]);
 
     const Vector part = parts ? hn::Load(lanes, parts->of + chunk * chunk_points + lane) : shown(person, chunk, lane);
-    const Vector cover = hn::ShiftLeftSame(times(part, all(area.steps)), area.shift);
+    Vector cover = times(part, all(area.steps));
+    for (int i = 0; i < area.shift; ++i) cover = hn::SaturatedAdd(cover, cover);
     const Vector back = dot(position, person.axes[2]);
     // 1 / (1 + t) - 1 = -t + t^2 - t^3 ...: what is farther back is smaller.
     const Vector t = times(back, all(person.nearness));

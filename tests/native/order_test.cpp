@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -280,7 +281,8 @@ TEST_P(Order, OfTwoTheNearerHidesTheFarther) {
 
 INSTANTIATE_TEST_SUITE_P(Metres, Order, testing::ValuesIn(distances));
 
-// Cells that are larger than pixels, by S [px]: hardly, a little, no whole number, and far.
+// Cells that are larger than pixels, or points that are fewer, by S [px]: the last with cells of pixels, cells that are
+// hardly larger, as large as S, and no whole number.
 class CoarseOrder : public testing::TestWithParam<double> {
 protected:
     static constexpr double distance = 50;
@@ -289,15 +291,24 @@ protected:
 };
 
 TEST_P(CoarseOrder, CellsHardlyLargerThanPixelsShowWhatPixelsDo) {
-    if (GetParam() > 1.01) GTEST_SKIP() << "larger";
-    const double off = (GetParam() - 1) * (width + height);  // [of 1] so far the last cells are aside of their pixels
-    const Seen fine = Stage(distance).look_at({whom}), coarse = stage().look_at({whom});
+    constexpr double finest = std::numbers::sqrt2;  // S of the last cells that are pixels
+    if (GetParam() > finest + 0.01) GTEST_SKIP() << "larger";
+    const double larger = (GetParam() - finest) / (2 - finest);
+    // [of 1] Two bytes of light, and of four cells' worth of points, which are placed to a 128th of a cell.
+    constexpr double rounding = 0.015 + 4.0 / 128;
+    const double off = larger * (width + height) + rounding;  // so far the last cells are aside of their pixels
+    const Seen fine = Stage(distance, {}, finest).look_at({whom}), coarse = stage().look_at({whom});
     for (std::size_t i = 0; i < fine.red.size(); ++i)
         ASSERT_NEAR(share(coarse.red[i]), share(fine.red[i]), off) << "pixel " << i;
 }
 
 TEST_P(CoarseOrder, NobodyLosesAnythingInBetween) {
-    const double fine = sum(Stage(distance).look_at({whom}).red), coarse = sum(stage().look_at({whom}).red);
+    double fine = 0, coarse = 0;
+    for (const double aside : {-0.31, -0.12, 0.0, 0.07, 0.23, 0.4}) {
+        const Who somewhere{red, As::points, distance, aside};
+        fine += sum(Stage(distance).look_at({somewhere}).red);
+        coarse += sum(stage().look_at({somewhere}).red);
+    }
     EXPECT_NEAR(coarse, fine, 0.04 * fine);
 }
 
@@ -338,6 +349,7 @@ TEST_P(CoarseOrder, NearPeopleComeInBetweenPixelByPixel) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Pixels, CoarseOrder, testing::Values(1.0001, 1.4, 2.0, 3.7));
+INSTANTIATE_TEST_SUITE_P(Pixels, CoarseOrder,
+                         testing::Values(std::numbers::sqrt2, std::numbers::sqrt2 + 5e-6, 2.0, 3.7));
 
 }  // namespace
