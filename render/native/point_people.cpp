@@ -202,9 +202,9 @@ void color(const Sight& sight, SplatPerson& out) {
 
 // [px] The side of cells for S. Cells that are hardly larger than pixels cost more to stretch than they save.
 float cell_of(float splat_size) {
-    constexpr float finest = 1.4142136f, steep_until = 2.0f;
-    if (splat_size >= steep_until) return splat_size;
-    return std::max(1.0f, 1.0f + (splat_size - finest) * (steep_until - 1.0f) / (steep_until - finest));
+    constexpr float until = 1.6817928f, from = 2.3784142f;  // [px] S of cells that are pixels, and as large as S
+    if (splat_size >= from) return splat_size;
+    return std::max(1.0f, 1.0f + (splat_size - until) * (from - 1.0f) / (from - until));
 }
 
 }  // namespace

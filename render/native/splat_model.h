@@ -20,7 +20,7 @@ namespace render::native {
 // Prefixes up to so long show the mean looks of the surface that their points stand for (pointsample/prefix_look.h).
 inline constexpr int longest_mean_prefix = chunk_points;
 // Of a handful of points none may happen to face the eye: each stands for both sides of the body.
-inline constexpr int longest_two_sided_prefix = 32;
+inline constexpr int longest_two_sided_prefix = 96;
 // The sun goes around a body in so many steps; its height is the place's.
 inline constexpr int sun_azimuths = 8;
 

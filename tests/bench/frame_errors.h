@@ -21,7 +21,7 @@ struct Errors {
 Errors errors_of(const render::Image& reference, const render::Image& test);
 
 // Tried from the coarsest to the finest; 0: triangles, natively.
-inline constexpr double tried_splat_sizes[] = {4, 2.8, 2, 1.7, 1.5, 1.4, 1.3, 1.2, 1, 0.9, 0.8, 0.7, 0.5, 0};
+inline constexpr double tried_splat_sizes[] = {4, 2.8, 2, 1.7, 1.6, 1.5, 1.4, 1.3, 1.2, 1, 0.9, 0.8, 0.7, 0.5, 0};
 
 struct PresetErrors {
     Errors triangles;                        // at one sample, by OpenGL

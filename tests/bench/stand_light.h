@@ -9,7 +9,7 @@ namespace bench {
 
 inline constexpr double stand_heights[] = {1, 2, 4, 8, 16, 32, 64, 128, 400};  // [px] of a standing person
 // [px] 0: triangles, natively, by which the measure itself is known.
-inline constexpr double stand_splat_sizes[] = {0, 0.35, 0.5, 1, 1.4, 2, 4};
+inline constexpr double stand_splat_sizes[] = {0, 0.35, 0.5, 1, 1.4, 1.68, 2, 4};
 inline constexpr double stand_elevations[] = {0.15, 0.9};  // [rad] of the camera above the people
 
 // Shares by which a stand drawn natively is off from the reference.
