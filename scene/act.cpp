@@ -68,35 +68,37 @@ bool acts_alternate(const Acts& acts, const motion::PoseTable& poses) {
 }
 
 // One act for ever, at a phase of one's own.
-Action keep_acting(const Acts& acts, const motion::PoseTable& poses, std::uint32_t own, std::int64_t tick) {
+Act keep_acting(const Acts& acts, const motion::PoseTable& poses, std::uint32_t own, std::int64_t tick) {
     constexpr float excited_share = 0.25f;
     const std::uint64_t bits = hash(own, salt_act);
     const bool excited = !acts.excited.empty() && upper_unit(bits) < excited_share;
     const std::uint8_t clip = choose(excited ? acts.excited : acts.calm, mix(bits));
     const std::int64_t length = length_of(poses, clip);
     const std::int64_t time = tick + below(hash(own, salt_phase), static_cast<std::uint32_t>(length));
-    return {clip, time - floor_div(time, length) * length};
+    const std::int64_t from = tick - (time - floor_div(time, length) * length);
+    return {from, from + length, clip, false};
 }
 
 // An act a period. The clips begin and end in one pose, so whoever waits between periods holds it.
-Action alternate(const Acts& acts, const motion::PoseTable& poses, std::uint32_t own, float around, bool waves,
-                 std::int64_t tick) {
+Act alternate(const Acts& acts, const motion::PoseTable& poses, std::uint32_t own, float around, bool waves,
+              std::int64_t tick) {
     const std::int64_t length = length_of(poses, acts.calm.front());
     const std::int64_t phase = below(hash(own, salt_phase), static_cast<std::uint32_t>(length));
     const std::int64_t period = floor_div(tick + phase, length);
-    const std::int64_t start = period * length - phase;
+    const std::int64_t start = period * length - phase, end = start + length;
     if (waves && 3 * length < wave_interval) {
         const std::int64_t wave = floor_div(tick - wave_start(0, around, own), wave_interval);
         const std::int64_t last = wave_start(wave, around, own), next = last + wave_interval;
-        if (start < last + length && takes_part(wave, own)) {
-            if (tick < last + length) return {acts.excited.front(), tick - last};
-            return {acts.calm.front(), 0};
+        const std::int64_t over = last + length;
+        if (start < over && takes_part(wave, own)) {
+            if (tick < over) return {last, over, acts.excited.front(), false};
+            return {over, end, acts.calm.front(), true};
         }
-        if (start + length > next && takes_part(wave + 1, own)) return {acts.calm.front(), 0};
+        if (end > next && takes_part(wave + 1, own)) return {start, next, acts.calm.front(), true};
     }
     const std::uint64_t bits = hash(hash(own, salt_act), static_cast<std::uint64_t>(period));
     const bool excited = upper_unit(bits) < excitement(around, start);
-    return {choose(excited ? acts.excited : acts.calm, mix(bits)), tick - start};
+    return {start, end, choose(excited ? acts.excited : acts.calm, mix(bits)), false};
 }
 
 }  // namespace
@@ -114,13 +116,18 @@ Placement place(const Crowd& crowd, std::size_t person, const CastMember& member
     return {{xz.x, at.y, xz.y}, std::atan2(ahead.x, ahead.y)};
 }
 
-Action act(const Crowd& crowd, std::size_t person, const CastMember& member, const motion::PoseTable& poses,
-           std::int64_t tick) {
+Act act_around(const Crowd& crowd, std::size_t person, const CastMember& member, const motion::PoseTable& poses,
+               std::int64_t tick) {
     const Role role = crowd.role[person];
     const Acts& acts = member.acts[static_cast<std::size_t>(role)];
     const std::uint32_t own = crowd.hash[person];
     if (follows_path(role) || !acts_alternate(acts, poses)) return keep_acting(acts, poses, own, tick);
     return alternate(acts, poses, own, crowd.around[person], role == Role::spectator, tick);
+}
+
+Action act(const Crowd& crowd, std::size_t person, const CastMember& member, const motion::PoseTable& poses,
+           std::int64_t tick) {
+    return act_around(crowd, person, member, poses, tick).at(tick);
 }
 
 bool has_arrived(const Crowd& crowd, std::size_t person, std::int64_t tick) {

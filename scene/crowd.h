@@ -78,8 +78,21 @@ Placement place(const Crowd& crowd, std::size_t person, const CastMember& member
 // Whether `person` has come in by `tick`.
 bool has_arrived(const Crowd& crowd, std::size_t person, std::int64_t tick);
 
-// What `person` does at `tick` of the scene: phase, choice between acts (cheering travels around the place as a
+// What somebody does without a change.
+struct Act {
+    std::int64_t from, until;  // [ticks] of the scene: at least from the one to before the other
+    std::uint8_t clip;         // into PoseTable::clips; it begins at `from`
+    bool holds;                // its first pose all the time
+
+    Action at(std::int64_t tick) const { return {clip, holds ? 0 : tick - from}; }
+};
+
+// What `person` does around `tick` of the scene: phase, choice between acts (cheering travels around the place as a
 // wave now and then), all from hash and tick.
+Act act_around(const Crowd& crowd, std::size_t person, const CastMember& member, const motion::PoseTable& poses,
+               std::int64_t tick);
+
+// The same at `tick`.
 Action act(const Crowd& crowd, std::size_t person, const CastMember& member, const motion::PoseTable& poses,
            std::int64_t tick);
 
