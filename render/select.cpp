@@ -23,8 +23,8 @@ Selector::Selector(const scene::Crowd& crowd, std::span<const scene::CastMember>
       cast_(cast),
       figures_(figures.begin(), figures.end()),
       options_(options),
-      depth_(crowd.size()),
-      candidates_(crowd.size()) {
+      acts_(crowd),
+      depth_(crowd.size()) {
     for (const figures::Figure& figure : figures_) {
         Kind& kind = kinds_.emplace_back(Kind{figures::Choices(figure, *options_.way)});
         const motion::Bounds& box = figure.poses->box;
@@ -45,11 +45,17 @@ Selector::Selector(const scene::Crowd& crowd, std::span<const scene::CastMember>
 
 template <typename Visit>
 void Selector::for_each_visible(Visit visit) const {
-    for (const std::uint32_t block_index : visible_blocks_) {
-        const scene::CrowdBlock& block = crowd_.blocks[block_index];
+    for (const Seen& seen : seen_) {
+        const scene::CrowdBlock& block = crowd_.blocks[seen.block];
         for (std::size_t person = block.first; person < block.first + block.count; ++person)
             if (depth_[person] > 0) visit(person);
     }
+}
+
+template <typename Work>
+void Selector::for_each_seen(Work work) {
+    tbb::parallel_for(
+        std::size_t{0}, seen_.size(), [&](std::size_t i) { work(seen_[i]); }, tbb::static_partitioner());
 }
 
 const Survey& Selector::survey(const View& view, std::int64_t tick, const Surroundings& around) {
@@ -58,15 +64,13 @@ const Survey& Selector::survey(const View& view, std::int64_t tick, const Surrou
     around_ = around;
     survey_.hidden = 0;
     find_blocks();
-    tbb::parallel_for(
-        std::size_t{0}, visible_blocks_.size(), [&](std::size_t i) { find_visible(i); }, tbb::static_partitioner());
+    for_each_seen([&](Seen& seen) { find_visible(seen); });
     forecast();
     return survey_;
 }
 
 void Selector::find_blocks() {
-    visible_blocks_.clear();
-    block_inside_.clear();
+    seen_.clear();
     for (std::uint32_t block = 0; block < crowd_.blocks.size(); ++block) {
         const scene::CrowdBlock& people = crowd_.blocks[block];
         const Overlap seen = overlap(view_, people.box);
@@ -76,14 +80,15 @@ void Selector::find_blocks() {
             survey_.hidden += people.count;
             continue;
         }
-        visible_blocks_.push_back(block);
-        block_inside_.push_back(seen == Overlap::inside);
+        Seen& shown = seen_.emplace_back();
+        shown.block = block;
+        shown.inside = seen == Overlap::inside;
     }
 }
 
-void Selector::find_visible(std::size_t block_index) {
-    const scene::CrowdBlock& block = crowd_.blocks[visible_blocks_[block_index]];
-    const bool cull = !block_inside_[block_index];
+void Selector::find_visible(Seen& seen) {
+    const scene::CrowdBlock& block = crowd_.blocks[seen.block];
+    const bool cull = !seen.inside;
     for (std::size_t person = block.first; person < block.first + block.count; ++person) {
         const std::size_t character = crowd_.character[person];
         const Kind& kind = kinds_[character];
@@ -97,17 +102,17 @@ void Selector::find_visible(std::size_t block_index) {
             depth = behind;
         else
             depth = std::max(view_.depth(center), near_plane);
+        seen.range = std::max(seen.range, depth);
+        seen.visible += depth > 0;
+        seen.hidden += depth == behind;
     }
 }
 
 void Selector::forecast() {
     survey_.range = 1.0f;
-    for (const std::uint32_t block_index : visible_blocks_) {
-        const scene::CrowdBlock& block = crowd_.blocks[block_index];
-        for (std::size_t person = block.first; person < block.first + block.count; ++person) {
-            survey_.range = std::max(survey_.range, depth_[person]);
-            survey_.hidden += depth_[person] == behind;
-        }
+    for (const Seen& seen : seen_) {
+        survey_.range = std::max(survey_.range, seen.range);
+        survey_.hidden += seen.hidden;
     }
     forecaster_.begin(survey_.range);
     for_each_visible([&](std::size_t person) {
@@ -120,16 +125,45 @@ void Selector::forecast() {
 }
 
 const Frame& Selector::select(const sfsm::Decision& decision, std::int64_t last_tick) {
-    const auto consider_block = [&](std::size_t i) {
-        const scene::CrowdBlock& block = crowd_.blocks[visible_blocks_[i]];
-        for (std::size_t person = block.first; person < block.first + block.count; ++person)
-            if (depth_[person] > 0) candidates_[person] = consider(person, decision, last_tick);
-    };
-    tbb::parallel_for(std::size_t{0}, visible_blocks_.size(), consider_block, tbb::static_partitioner());
-    gather();
+    make_room();
+    for_each_seen([&](Seen& seen) { choose(seen, decision, last_tick); });
+    sum_up();
     frame_.view = view_;
     frame_.splat_size = decision.splat_size;
     return frame_;
+}
+
+// Each block's people have a place in the frame that is known beforehand: any thread may write them.
+void Selector::make_room() {
+    std::size_t people = 0;
+    for (Seen& seen : seen_) {
+        seen.first_drawn = static_cast<std::uint32_t>(people);
+        people += seen.visible;
+    }
+    // Not twice as much as is needed, which a vector would take.
+    if (people > frame_.people.capacity()) frame_.people.reserve(std::min(people + people / 4, crowd_.size()));
+    frame_.people.resize(people);
+}
+
+void Selector::choose(Seen& seen, const sfsm::Decision& decision, std::int64_t last_tick) {
+    seen.work = {};
+    seen.slowed = seen.simplified = false;
+    const scene::CrowdBlock& block = crowd_.blocks[seen.block];
+    Person* drawn = frame_.people.data() + seen.first_drawn;
+    for (std::size_t person = block.first; person < block.first + block.count; ++person)
+        if (depth_[person] > 0) *drawn++ = choose(person, decision, last_tick, seen);
+}
+
+void Selector::sum_up() {
+    frame_.work = around_.work;
+    bool is_slowed = false, is_simplified = false;
+    for (const Seen& seen : seen_) {
+        frame_.work += seen.work;
+        is_slowed |= seen.slowed;
+        is_simplified |= seen.simplified;
+    }
+    frame_.work[sfsm::WorkKind::person] += static_cast<std::int64_t>(frame_.people.size());
+    frame_.state = is_simplified ? sfsm::State::points : is_slowed ? sfsm::State::slowed : sfsm::State::original;
 }
 
 float Selector::scale_of(std::size_t person) const {
@@ -146,8 +180,7 @@ float Selector::demand_at_unit_splat(std::size_t person) const {
 }
 
 // Where the person is now decides whether they are seen and how often they move; both change little in a period.
-Selector::Candidate Selector::consider(std::size_t person, const sfsm::Decision& decision,
-                                       std::int64_t last_tick) const {
+Person Selector::choose(std::size_t person, const sfsm::Decision& decision, std::int64_t last_tick, Seen& seen) {
     const std::size_t character = crowd_.character[person];
     const scene::CastMember& member = cast_[character];
     const motion::PoseTable& poses = *figures_[character].poses;
@@ -161,40 +194,23 @@ Selector::Candidate Selector::consider(std::size_t person, const sfsm::Decision&
     const std::uint32_t choice = splat_area > 0 ? choices.at(demand) : choices.exact();
     const auto& [representation, level] = choices.all()[choice];
     const figures::Part part = figures::part_of(level, demand);
-    const scene::Action action = scene::act(crowd_, person, member, poses, due);
+    const scene::Action action = acts_.at(person, member, poses, due);
     const auto pose = static_cast<std::uint32_t>(poses.pose_at(action.clip, action.clip_tick));
     const scene::Placement placement = scene::place(crowd_, person, member, due);
-    Candidate candidate;
-    candidate.work = part.work;
-    candidate.moved = due > last_tick;
-    candidate.slowed = period > 1;
-    candidate.person = {{view_.relative(placement.position), scale_of(person), snorm16(std::sin(placement.yaw)),
-                         snorm16(std::cos(placement.yaw)), crowd_.palette[person]},
-                        static_cast<std::uint32_t>(character),
-                        representation,
-                        level.first,
-                        part.count,
-                        part.last_share,
-                        pose,
-                        kinds_[character].first_batch + choice * static_cast<std::uint32_t>(poses.pose_count) + pose,
-                        depth_[person]};
-    return candidate;
-}
-
-void Selector::gather() {
-    frame_.people.clear();
-    frame_.work = around_.work;
-    bool is_slowed = false, is_simplified = false;
-    for_each_visible([&](std::size_t person) {
-        const Candidate& candidate = candidates_[person];
-        frame_.people.push_back(candidate.person);
-        frame_.work += candidate.work;
-        frame_.work[sfsm::WorkKind::motion_update] += candidate.moved;
-        is_slowed |= candidate.slowed;
-        is_simplified |= !options_.way->representations[candidate.person.representation].is_mesh;
-    });
-    frame_.work[sfsm::WorkKind::person] += static_cast<std::int64_t>(frame_.people.size());
-    frame_.state = is_simplified ? sfsm::State::points : is_slowed ? sfsm::State::slowed : sfsm::State::original;
+    seen.work += part.work;
+    seen.work[sfsm::WorkKind::motion_update] += due > last_tick;
+    seen.slowed |= period > 1;
+    seen.simplified |= !options_.way->representations[representation].is_mesh;
+    return {{view_.relative(placement.position), scale_of(person), snorm16(std::sin(placement.yaw)),
+             snorm16(std::cos(placement.yaw)), crowd_.palette[person]},
+            static_cast<std::uint32_t>(character),
+            representation,
+            level.first,
+            part.count,
+            part.last_share,
+            pose,
+            kinds_[character].first_batch + choice * static_cast<std::uint32_t>(poses.pose_count) + pose,
+            depth_[person]};
 }
 
 }  // namespace render

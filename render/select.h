@@ -14,6 +14,7 @@
 #include "render/frame.h"
 #include "render/surroundings.h"
 #include "scene/crowd.h"
+#include "scene/remembered_acts.h"
 #include "sfsm/decision.h"
 
 namespace render {
@@ -50,11 +51,17 @@ public:
     const Frame& select(const sfsm::Decision& decision, std::int64_t last_tick);
 
 private:
-    struct Candidate {
-        Person person;
-        sfsm::Work work;  // to draw them so
-        bool moved;
-        bool slowed;  // moves less often than every frame
+    // A block that may show.
+    struct Seen {
+        std::uint32_t block = 0;        // into Crowd::blocks
+        bool inside = false;            // no need to cull its people one by one
+        float range = 0;                // [m] view depth of its farthest visible person; 0: nobody is
+        std::uint32_t visible = 0;      // people
+        std::uint32_t hidden = 0;       // by the structure
+        std::uint32_t first_drawn = 0;  // into Frame::people
+        // Of its visible people together, as they were chosen last.
+        sfsm::Work work;
+        bool slowed = false, simplified = false;
     };
     // What is known of a character beforehand.
     struct Kind {
@@ -68,14 +75,18 @@ private:
     static constexpr float unseen = -1.0f, behind = -2.0f;
 
     void find_blocks();
-    void find_visible(std::size_t block_index);
+    void find_visible(Seen& seen);
     void forecast();
-    Candidate consider(std::size_t person, const sfsm::Decision& decision, std::int64_t last_tick) const;
+    void make_room();
+    void choose(Seen& seen, const sfsm::Decision& decision, std::int64_t last_tick);
+    Person choose(std::size_t person, const sfsm::Decision& decision, std::int64_t last_tick, Seen& seen);
     float scale_of(std::size_t person) const;  // [m / model unit]
     float demand_at_unit_splat(std::size_t person) const;
-    void gather();
+    void sum_up();
     template <typename Visit>
     void for_each_visible(Visit visit) const;
+    template <typename Work>
+    void for_each_seen(Work work);
 
     const scene::Crowd& crowd_;
     std::span<const scene::CastMember> cast_;
@@ -87,13 +98,12 @@ private:
     View view_;
     std::int64_t tick_ = 0;
     Surroundings around_;
-    std::vector<std::uint32_t> visible_blocks_;
-    std::vector<std::uint8_t> block_inside_;  // per visible block: no need to cull its people one by one
-    std::vector<float> depth_;                // [m] per person of visible blocks; unseen: not in view; behind: hidden
+    scene::RememberedActs acts_;
+    std::vector<Seen> seen_;    // in the crowd's order
+    std::vector<float> depth_;  // [m] per person of those blocks; unseen: not in view; behind: hidden
     Forecaster forecaster_;
     Survey survey_;
 
-    std::vector<Candidate> candidates_;  // one a person; only visible people's are of this frame
     Frame frame_;
 };
 
