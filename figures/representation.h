@@ -7,6 +7,8 @@
 // It grows without bound as S goes to 0, where only what has the artist's own shape will do.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -37,7 +39,16 @@ inline constexpr std::uint32_t fewest_points = 4;
 
 // For a demand >= 0: all of the level or, where it is drawn by ones, as many as are asked for, but at least
 // fewest_points and at most all.
-Part part_of(const Level& level, float demand);
+inline Part part_of(const Level& level, float demand) {
+    if (!level.by_ones) return {level.count, 1.0f, level.work};
+    const auto samples =
+        std::clamp(demand, static_cast<float>(std::min(fewest_points, level.count)), static_cast<float>(level.count));
+    Part part;
+    part.count = static_cast<std::uint32_t>(std::ceil(samples));
+    part.last_share = samples - static_cast<float>(part.count - 1);
+    part.work[sfsm::WorkKind::point] = part.count;
+    return part;
+}
 
 struct Representation {
     std::string_view name;

@@ -39,6 +39,7 @@ Forecaster::Forecaster(std::vector<Kind> kinds, const figures::Way& way, float d
       kinds_(std::move(kinds)),
       pixels_(kinds_.size()),
       people_by_demand_(kinds_.size()),
+      people_of_blocks_(kinds_.size()),
       choices_(kinds_.size()) {
     for (int bin = 0; bin < demand_bins; ++bin) {
         silhouettes_[bin] = 0.5 * std::sqrt(demand_of(bin) / density);
@@ -53,18 +54,52 @@ void Forecaster::begin(float range) {
     depths_.fill(0);
     for (auto& roles : pixels_) roles.fill({});
     for (auto& histogram : people_by_demand_) histogram.fill(0);
+    for (auto& histogram : people_of_blocks_) histogram.fill(0);
+    has_blocks_ = false;
+}
+
+void Forecaster::count(std::size_t kind, scene::Role role, std::int64_t people, float depth, float pixels_per_metre) {
+    people_ += people;
+    const int bin = std::min(static_cast<int>(depth / range_ * depth_bins), depth_bins - 1);
+    depths_[bin] += people;
+    pixels_[kind][static_cast<std::size_t>(role)][bin] +=
+        static_cast<double>(people) * static_cast<double>(pixels_per_metre);
 }
 
 void Forecaster::add(std::size_t kind, scene::Role role, float depth, float demand_at_unit_splat,
                      float pixels_per_metre) {
-    ++people_;
-    const int bin = std::min(static_cast<int>(depth / range_ * depth_bins), depth_bins - 1);
-    ++depths_[bin];
-    pixels_[kind][static_cast<std::size_t>(role)][bin] += pixels_per_metre;
+    count(kind, role, 1, depth, pixels_per_metre);
     ++people_by_demand_[kind][bin_of(demand_at_unit_splat)];
 }
 
+void Forecaster::add_block(std::size_t kind, scene::Role role, std::int64_t people, float depth,
+                           float demand_at_unit_splat, float pixels_per_metre) {
+    count(kind, role, people, depth, pixels_per_metre);
+    people_of_blocks_[kind][bin_of(demand_at_unit_splat)] += static_cast<std::int32_t>(people);
+    has_blocks_ = true;
+}
+
+// Shares out each bin of blocks' people over what they ask for. What rounding leaves goes on to the next share, so that
+// everybody is counted once.
+void Forecaster::spread_blocks() {
+    for (std::size_t kind = 0; has_blocks_ && kind < kinds_.size(); ++kind) {
+        const std::vector<float>& spread = kinds_[kind].spread;
+        const auto shares = static_cast<std::int64_t>(spread.size());
+        std::int64_t rest = 0;  // [people / shares]
+        for (int bin = 0; bin < demand_bins; ++bin) {
+            const std::int64_t people = people_of_blocks_[kind][bin];
+            if (people == 0) continue;
+            for (const float share : spread) {
+                const std::int64_t whole = (people + rest) / shares;
+                rest += people - whole * shares;
+                people_by_demand_[kind][bin_of(share * demand_of(bin))] += static_cast<std::int32_t>(whole);
+            }
+        }
+    }
+}
+
 sfsm::Forecast Forecaster::finish(float theta) {
+    spread_blocks();
     price_motion(theta);
     price_shapes();
     return {sfsm::Work{people_}, motion_, shapes_};

@@ -17,6 +17,9 @@ public:
     struct Kind {
         figures::Choices choices;
         std::array<Staleness, scene::role_count> staleness{};  // by role
+        // What some equally frequent people of the kind ask for, in shares of what those of a block do on average: they
+        // aren't all as tall. Never empty, each > 0.
+        std::vector<float> spread{1.0f};
     };
 
     Forecaster() = default;
@@ -28,6 +31,10 @@ public:
     // One visible person of a kind: view depth [m], their demand at S = 1 px (figures/representation.h), and pixels
     // that a metre covers at their depth.
     void add(std::size_t kind, scene::Role role, float depth, float demand_at_unit_splat, float pixels_per_metre);
+    // Several people of a kind and role who are all about as far. `demand_at_unit_splat` is that of people of mean
+    // size; how sizes differ is the kind's own.
+    void add_block(std::size_t kind, scene::Role role, std::int64_t people, float depth, float demand_at_unit_splat,
+                   float pixels_per_metre);
     // `theta` is equation 1's. Valid until the next begin().
     sfsm::Forecast finish(float theta);
 
@@ -37,6 +44,8 @@ private:
     static constexpr int motion_steps = 7;
     static constexpr int shape_steps = 28;  // S = 0, then quarter octaves from 0.35 px to 32 px
 
+    void count(std::size_t kind, scene::Role role, std::int64_t people, float depth, float pixels_per_metre);
+    void spread_blocks();
     void price_motion(float theta);
     void price_shapes();
     static int bin_of(float demand);
@@ -49,9 +58,11 @@ private:
     std::array<double, demand_bins> silhouettes_{};  // [px] the side of a square as large as a bin's people
     float range_ = 1;
     std::int64_t people_ = 0;
-    std::array<std::int64_t, depth_bins> depths_;                          // people
-    std::vector<std::array<Pixels, scene::role_count>> pixels_;            // per kind
-    std::vector<std::array<std::int32_t, demand_bins>> people_by_demand_;  // per kind, at S = 1 px
+    std::array<std::int64_t, depth_bins> depths_;                // people
+    std::vector<std::array<Pixels, scene::role_count>> pixels_;  // per kind
+    // Per kind, at S = 1 px: people, and of those of blocks by what people of mean size ask for.
+    std::vector<std::array<std::int32_t, demand_bins>> people_by_demand_, people_of_blocks_;
+    bool has_blocks_ = false;
     // Per kind: what serves a bin's demand. Under S demand goes with 1 / S^2, which is a shift of bins: looked up.
     std::vector<std::array<std::uint32_t, demand_bins>> choices_;
     std::array<sfsm::Step, motion_steps> motion_;

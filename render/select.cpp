@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace render {
 
@@ -14,6 +15,11 @@ namespace {
 std::int16_t snorm16(float value) {
     return static_cast<std::int16_t>(std::lround(value * 32767.0f));
 }
+
+// A block is surveyed as one where its people are lower than this and its depth is less than this share of its
+// distance: every person then asks for what the middle one does, within an eighth, and few would be hidden alone.
+constexpr float small_height_px = 4.0f;
+constexpr float small_spread = 1.0f / 16;
 
 }  // namespace
 
@@ -35,20 +41,71 @@ Selector::Selector(const scene::Crowd& crowd, std::span<const scene::CastMember>
         kind.overhang = options_.way->overhang * std::sqrt(0.25f * figure.poses->area);
         frame_.batch_numbers += static_cast<std::uint32_t>(kind.choices.all().size() * figure.poses->pose_count);
     }
-    for (std::size_t person = 0; person < crowd_.size(); ++person)
-        overhang_ = std::max(overhang_, scale_of(person) * kinds_[crowd_.character[person]].overhang);
+    know_blocks();
     const auto staleness = measure_staleness(crowd_, cast_, figures_);
+    const auto spreads = find_spreads();
     std::vector<Forecaster::Kind> priced;
-    for (std::size_t i = 0; i < kinds_.size(); ++i) priced.push_back({kinds_[i].choices, staleness[i]});
+    for (std::size_t i = 0; i < kinds_.size(); ++i) priced.push_back({kinds_[i].choices, staleness[i], spreads[i]});
     forecaster_ = Forecaster(std::move(priced), *options_.way, options_.density);
 }
 
+void Selector::know_blocks() {
+    turns_.resize(crowd_.size());
+    tbb::parallel_for(std::size_t{0}, crowd_.size(), [&](std::size_t i) { turns_[i] = turn_of(crowd_.yaw[i]); });
+    for (const scene::CrowdBlock& block : crowd_.blocks) {
+        Block& known = blocks_.emplace_back();
+        known.first_group = static_cast<std::uint32_t>(groups_.size());
+        for (std::size_t person = block.first; person < block.first + block.count; ++person) {
+            const std::size_t character = crowd_.character[person];
+            const scene::Role role = crowd_.role[person];
+            const Kind& kind = kinds_[character];
+            const float scale = scale_of(person);
+            overhang_ = std::max(overhang_, scale * kind.overhang);
+            known.reach = std::max(known.reach, scale * kind.radius);
+            known.tallest = std::max(known.tallest, crowd_.height[person]);
+            known.stays &= !scene::follows_path(role);
+            auto group = std::find_if(groups_.begin() + known.first_group, groups_.end(),
+                                      [&](const Group& one) { return one.character == character && one.role == role; });
+            if (group == groups_.end()) group = groups_.insert(group, {static_cast<std::uint32_t>(character), role});
+            ++group->people;
+            group->middle += crowd_.position[person] + scale * kind.center;
+        }
+        known.groups = static_cast<std::uint32_t>(groups_.size()) - known.first_group;
+        for (Group& group : std::span(groups_).subspan(known.first_group))
+            group.middle /= static_cast<float>(group.people);
+    }
+}
+
+// By character: the squares of people's scales in shares of their mean, which is kept, at some equally frequent ones.
+std::vector<std::vector<float>> Selector::find_spreads() {
+    constexpr std::size_t most_people = 4096, shares = 16;
+    std::vector<std::vector<float>> spreads(kinds_.size()), squares(kinds_.size());
+    const std::size_t step = std::max<std::size_t>(1, crowd_.size() / (most_people * kinds_.size()));
+    for (std::size_t person = 0; person < crowd_.size(); person += step)
+        squares[crowd_.character[person]].push_back(scale_of(person) * scale_of(person));
+    for (std::size_t i = 0; i < kinds_.size(); ++i) {
+        std::vector<float>& sorted = squares[i];
+        if (sorted.empty()) sorted.push_back(1.0f);
+        std::ranges::sort(sorted);
+        double sum = 0;
+        for (const float square : sorted) sum += static_cast<double>(square);
+        kinds_[i].mean_square = static_cast<float>(sum / static_cast<double>(sorted.size()));
+        for (std::size_t share = 0; share < shares; ++share)
+            spreads[i].push_back(sorted[(2 * share + 1) * sorted.size() / (2 * shares)] / kinds_[i].mean_square);
+    }
+    return spreads;
+}
+
+Selector::Turn Selector::turn_of(float yaw) {
+    return {snorm16(std::sin(yaw)), snorm16(std::cos(yaw))};
+}
+
 template <typename Visit>
-void Selector::for_each_visible(Visit visit) const {
-    for (const Seen& seen : seen_) {
-        const scene::CrowdBlock& block = crowd_.blocks[seen.block];
-        for (std::size_t person = block.first; person < block.first + block.count; ++person)
-            if (depth_[person] > 0) visit(person);
+void Selector::for_each_visible(const Seen& seen, Visit visit) const {
+    const scene::CrowdBlock& block = crowd_.blocks[seen.block];
+    for (std::size_t person = block.first; person < block.first + block.count; ++person) {
+        const float depth = seen.whole ? depth_of(person) : depth_[person];
+        if (depth > 0) visit(person, depth);
     }
 }
 
@@ -64,64 +121,110 @@ const Survey& Selector::survey(const View& view, std::int64_t tick, const Surrou
     around_ = around;
     survey_.hidden = 0;
     find_blocks();
-    for_each_seen([&](Seen& seen) { find_visible(seen); });
+    for_each_seen([&](Seen& seen) {
+        if (!seen.whole) find_visible(seen);
+    });
+    find_range();
     forecast();
     return survey_;
 }
 
 void Selector::find_blocks() {
+    tbb::parallel_for(
+        std::size_t{0}, blocks_.size(), [&](std::size_t block) { blocks_[block].look = look_at(block); },
+        tbb::static_partitioner());
     seen_.clear();
-    for (std::uint32_t block = 0; block < crowd_.blocks.size(); ++block) {
-        const scene::CrowdBlock& people = crowd_.blocks[block];
-        const Overlap seen = overlap(view_, people.box);
-        if (seen == Overlap::outside) continue;
-        if (around_.occlusion &&
-            around_.occlusion->hides_box(view_, {people.box.min - overhang_, people.box.max + overhang_})) {
-            survey_.hidden += people.count;
-            continue;
-        }
-        Seen& shown = seen_.emplace_back();
-        shown.block = block;
-        shown.inside = seen == Overlap::inside;
+    for (std::uint32_t block = 0; block < blocks_.size(); ++block) {
+        const Look look = blocks_[block].look;
+        if (look == Look::hidden) survey_.hidden += crowd_.blocks[block].count;
+        if (look == Look::hidden || look == Look::outside) continue;
+        Seen& seen = seen_.emplace_back();
+        seen.block = block;
+        seen.inside = look != Look::partly;
+        seen.whole = look == Look::whole;
+        if (seen.whole) seen.visible = crowd_.blocks[block].count;
     }
+}
+
+Selector::Look Selector::look_at(std::size_t block) const {
+    const motion::Bounds& box = crowd_.blocks[block].box;
+    const Overlap seen = overlap(view_, box);
+    if (seen == Overlap::outside) return Look::outside;
+    if (around_.occlusion && around_.occlusion->hides_box(view_, {box.min - overhang_, box.max + overhang_}))
+        return Look::hidden;
+    if (seen == Overlap::partly) return Look::partly;
+    return is_small(block) ? Look::whole : Look::inside;
+}
+
+// Whoever is as near as some radii may be drawn otherwise than their middle says.
+bool Selector::is_small(std::size_t block) const {
+    const Block& known = blocks_[block];
+    if (!known.stays || tick_ < crowd_.filled_tick) return false;
+    const DepthRange depths = depth_range(view_, crowd_.blocks[block].box);
+    return depths.farthest - depths.nearest <= small_spread * depths.nearest &&
+           depths.nearest >= options_.way->nearest * known.reach &&
+           known.tallest * view_.pixels_per_metre(depths.nearest) <= small_height_px;
 }
 
 void Selector::find_visible(Seen& seen) {
     const scene::CrowdBlock& block = crowd_.blocks[seen.block];
-    const bool cull = !seen.inside;
     for (std::size_t person = block.first; person < block.first + block.count; ++person) {
-        const std::size_t character = crowd_.character[person];
-        const Kind& kind = kinds_[character];
+        const Kind& kind = kinds_[crowd_.character[person]];
         const float scale = scale_of(person), radius = scale * kind.radius;
-        const scene::Placement now = scene::place(crowd_, person, cast_[character], tick_);
-        const glm::vec3 center = view_.relative(now.position) + scale * kind.center;
+        const glm::vec3 middle = middle_of(person);
         float& depth = depth_[person];
-        if ((cull && !sphere_visible(view_, center, radius)) || !scene::has_arrived(crowd_, person, tick_))
+        if ((!seen.inside && !sphere_visible(view_, middle, radius)) || !scene::has_arrived(crowd_, person, tick_))
             depth = unseen;
-        else if (around_.occlusion && around_.occlusion->hides_ball(view_, center, radius + scale * kind.overhang))
+        else if (around_.occlusion && around_.occlusion->hides_ball(view_, middle, radius + scale * kind.overhang))
             depth = behind;
         else
-            depth = std::max(view_.depth(center), near_plane);
+            depth = std::max(view_.depth(middle), near_plane);
         seen.range = std::max(seen.range, depth);
         seen.visible += depth > 0;
         seen.hidden += depth == behind;
     }
 }
 
-void Selector::forecast() {
+// Of blocks that are surveyed as one, only people of those are looked at that may reach beyond all others: no block's
+// farthest is nearer than its middle.
+void Selector::find_range() {
     survey_.range = 1.0f;
+    float reached = 1.0f;
     for (const Seen& seen : seen_) {
-        survey_.range = std::max(survey_.range, seen.range);
         survey_.hidden += seen.hidden;
+        survey_.range = std::max(survey_.range, seen.range);
+        for (const Group& group : groups_of(seen))
+            reached = std::max(reached, view_.depth(view_.relative(group.middle)));
     }
+    reached = std::max(reached, survey_.range);
+    for (const Seen& seen : seen_) {
+        if (!seen.whole || depth_range(view_, crowd_.blocks[seen.block].box).farthest < reached) continue;
+        for_each_visible(seen, [&](std::size_t, float depth) { survey_.range = std::max(survey_.range, depth); });
+    }
+}
+
+void Selector::forecast() {
     forecaster_.begin(survey_.range);
-    for_each_visible([&](std::size_t person) {
-        const std::size_t character = crowd_.character[person];
-        forecaster_.add(character, crowd_.role[person], depth_[person], demand_at_unit_splat(person),
-                        view_.pixels_per_metre(depth_[person]));
-    });
+    for (const Seen& seen : seen_) {
+        for (const Group& group : groups_of(seen)) {
+            const float depth = std::max(view_.depth(view_.relative(group.middle)), near_plane);
+            const float pixels = view_.pixels_per_metre(depth), square = kinds_[group.character].mean_square;
+            forecaster_.add_block(group.character, group.role, group.people, depth,
+                                  demand_of(group.character, square, pixels), pixels);
+        }
+        if (seen.whole) continue;
+        for_each_visible(seen, [&](std::size_t person, float depth) {
+            forecaster_.add(crowd_.character[person], crowd_.role[person], depth, demand_at_unit_splat(person, depth),
+                            view_.pixels_per_metre(depth));
+        });
+    }
     survey_.forecast = forecaster_.finish(options_.theta);
     survey_.forecast.frame += around_.work;
+}
+
+std::span<const Selector::Group> Selector::groups_of(const Seen& seen) const {
+    if (!seen.whole) return {};
+    return std::span(groups_).subspan(blocks_[seen.block].first_group, blocks_[seen.block].groups);
 }
 
 const Frame& Selector::select(const sfsm::Decision& decision, std::int64_t last_tick) {
@@ -148,10 +251,9 @@ void Selector::make_room() {
 void Selector::choose(Seen& seen, const sfsm::Decision& decision, std::int64_t last_tick) {
     seen.work = {};
     seen.slowed = seen.simplified = false;
-    const scene::CrowdBlock& block = crowd_.blocks[seen.block];
     Person* drawn = frame_.people.data() + seen.first_drawn;
-    for (std::size_t person = block.first; person < block.first + block.count; ++person)
-        if (depth_[person] > 0) *drawn++ = choose(person, decision, last_tick, seen);
+    for_each_visible(
+        seen, [&](std::size_t person, float depth) { *drawn++ = choose(person, depth, decision, last_tick, seen); });
 }
 
 void Selector::sum_up() {
@@ -170,39 +272,56 @@ float Selector::scale_of(std::size_t person) const {
     return crowd_.height[person] / figures_[crowd_.character[person]].poses->rest_height;
 }
 
-float Selector::demand_at_unit_splat(std::size_t person) const {
+glm::vec3 Selector::middle_of(std::size_t person) const {
+    return spot_of(person, tick_).position + scale_of(person) * kinds_[crowd_.character[person]].center;
+}
+
+Selector::Spot Selector::spot_of(std::size_t person, std::int64_t tick) const {
+    if (!scene::follows_path(crowd_.role[person])) return {view_.relative(crowd_.position[person]), turns_[person]};
+    const scene::Placement placement = scene::place(crowd_, person, cast_[crowd_.character[person]], tick);
+    return {view_.relative(placement.position), turn_of(placement.yaw)};
+}
+
+float Selector::depth_of(std::size_t person) const {
+    return std::max(view_.depth(middle_of(person)), near_plane);
+}
+
+float Selector::demand_at_unit_splat(std::size_t person, float depth) const {
     const std::size_t character = crowd_.character[person];
     const float scale = scale_of(person);
-    if (depth_[person] < options_.way->nearest * scale * kinds_[character].radius)
-        return std::numeric_limits<float>::infinity();
-    const float pixels = scale * view_.pixels_per_metre(depth_[person]);
+    if (depth < options_.way->nearest * scale * kinds_[character].radius) return std::numeric_limits<float>::infinity();
+    const float pixels = scale * view_.pixels_per_metre(depth);
     return options_.density * figures_[character].poses->area * pixels * pixels;
 }
 
+float Selector::demand_of(std::size_t character, float scale_square, float pixels_per_metre) const {
+    return options_.density * figures_[character].poses->area * scale_square * pixels_per_metre * pixels_per_metre;
+}
+
 // Where the person is now decides whether they are seen and how often they move; both change little in a period.
-Person Selector::choose(std::size_t person, const sfsm::Decision& decision, std::int64_t last_tick, Seen& seen) {
+Person Selector::choose(std::size_t person, float depth, const sfsm::Decision& decision, std::int64_t last_tick,
+                        Seen& seen) {
     const std::size_t character = crowd_.character[person];
     const scene::CastMember& member = cast_[character];
     const motion::PoseTable& poses = *figures_[character].poses;
     int period = 1;
     if (decision.state != sfsm::State::original)
-        period = motion::update_period(depth_[person], static_cast<float>(decision.motion_distance), options_.theta);
+        period = motion::update_period(depth, static_cast<float>(decision.motion_distance), options_.theta);
     const std::int64_t due = motion::due_tick(tick_, period, crowd_.hash[person]);
     const auto splat_area = static_cast<float>(decision.splat_size * decision.splat_size);
     const figures::Choices& choices = kinds_[character].choices;
-    const float demand = splat_area > 0 ? demand_at_unit_splat(person) / splat_area : 0.0f;
+    const float demand = splat_area > 0 ? demand_at_unit_splat(person, depth) / splat_area : 0.0f;
     const std::uint32_t choice = splat_area > 0 ? choices.at(demand) : choices.exact();
     const auto& [representation, level] = choices.all()[choice];
     const figures::Part part = figures::part_of(level, demand);
     const scene::Action action = acts_.at(person, member, poses, due);
     const auto pose = static_cast<std::uint32_t>(poses.pose_at(action.clip, action.clip_tick));
-    const scene::Placement placement = scene::place(crowd_, person, member, due);
+    const Spot spot = spot_of(person, due);
     seen.work += part.work;
     seen.work[sfsm::WorkKind::motion_update] += due > last_tick;
     seen.slowed |= period > 1;
     seen.simplified |= !options_.way->representations[representation].is_mesh;
-    return {{view_.relative(placement.position), scale_of(person), snorm16(std::sin(placement.yaw)),
-             snorm16(std::cos(placement.yaw)), crowd_.palette[person]},
+    return {{spot.position, scale_of(person), spot.turn.sin, spot.turn.cos, crowd_.palette[person]},
             static_cast<std::uint32_t>(character),
             representation,
             level.first,
@@ -210,7 +329,7 @@ Person Selector::choose(std::size_t person, const sfsm::Decision& decision, std:
             part.last_share,
             pose,
             kinds_[character].first_batch + choice * static_cast<std::uint32_t>(poses.pose_count) + pose,
-            depth_[person]};
+            depth};
 }
 
 }  // namespace render

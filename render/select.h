@@ -36,6 +36,8 @@ struct Survey {
     std::int64_t hidden = 0;  // people behind the structure: they aren't drawn
 };
 
+// Blocks that are far are surveyed as one: they are seen or hidden as a whole, and priced by how many people of each
+// character they have where, so that a survey costs what is near and not what exists.
 // A frame is surveyed, then selected from. Reuses its memory: after the first frames nothing is allocated.
 class Selector {
 public:
@@ -55,6 +57,7 @@ private:
     struct Seen {
         std::uint32_t block = 0;        // into Crowd::blocks
         bool inside = false;            // no need to cull its people one by one
+        bool whole = false;             // all of it shows, and so small that it is surveyed as one
         float range = 0;                // [m] view depth of its farthest visible person; 0: nobody is
         std::uint32_t visible = 0;      // people
         std::uint32_t hidden = 0;       // by the structure
@@ -70,21 +73,55 @@ private:
         // A ball around the character in every pose, on the axis that it turns about [model units].
         glm::vec3 center{0.0f};
         float radius = 0;
-        float overhang = 0;  // of their splats [model units]
+        float overhang = 0;     // of their splats [model units]
+        float mean_square = 1;  // of people's scales [m^2 / model unit^2]
+    };
+    // People of a block who are alike: all that is asked of one that is surveyed as a whole.
+    struct Group {
+        std::uint32_t character = 0;
+        scene::Role role{};
+        std::uint32_t people = 0;
+        glm::vec3 middle{0.0f};  // [m] world: mean of theirs
+    };
+    enum class Look : std::uint8_t { outside, hidden, partly, inside, whole };
+    // Of one of Crowd::blocks.
+    struct Block {
+        std::uint32_t first_group = 0, groups = 0;
+        float reach = 0, tallest = 0;  // [m] the largest radius, and height, of its people
+        bool stays = true;             // nobody in it follows a path
+        Look look{};                   // in the view that is surveyed
+    };
+    struct Turn {
+        std::int16_t sin = 0, cos = 0;  // snorm, of a yaw
+    };
+    struct Spot {
+        glm::vec3 position;  // [m] camera-relative, of the model's origin
+        Turn turn;
     };
     static constexpr float unseen = -1.0f, behind = -2.0f;
 
+    void know_blocks();
+    std::vector<std::vector<float>> find_spreads();
     void find_blocks();
+    Look look_at(std::size_t block) const;
+    bool is_small(std::size_t block) const;
     void find_visible(Seen& seen);
+    void find_range();
     void forecast();
+    std::span<const Group> groups_of(const Seen& seen) const;  // that is surveyed as one; else none
     void make_room();
     void choose(Seen& seen, const sfsm::Decision& decision, std::int64_t last_tick);
-    Person choose(std::size_t person, const sfsm::Decision& decision, std::int64_t last_tick, Seen& seen);
+    Person choose(std::size_t person, float depth, const sfsm::Decision& decision, std::int64_t last_tick, Seen& seen);
     float scale_of(std::size_t person) const;  // [m / model unit]
-    float demand_at_unit_splat(std::size_t person) const;
+    float demand_at_unit_splat(std::size_t person, float depth) const;
+    static Turn turn_of(float yaw);
+    Spot spot_of(std::size_t person, std::int64_t tick) const;
+    glm::vec3 middle_of(std::size_t person) const;  // [m] camera-relative, of their ball
+    float depth_of(std::size_t person) const;       // [m] of that, at least the near plane
+    float demand_of(std::size_t character, float scale_square, float pixels_per_metre) const;
     void sum_up();
     template <typename Visit>
-    void for_each_visible(Visit visit) const;
+    void for_each_visible(const Seen& seen, Visit visit) const;  // gets person and view depth
     template <typename Work>
     void for_each_seen(Work work);
 
@@ -93,14 +130,17 @@ private:
     std::vector<figures::Figure> figures_;
     SelectOptions options_;
     std::vector<Kind> kinds_;
-    float overhang_ = 0;  // the largest of anybody [m]
+    float overhang_ = 0;         // the largest of anybody [m]
+    std::vector<Block> blocks_;  // as Crowd::blocks
+    std::vector<Group> groups_;  // block by block
+    std::vector<Turn> turns_;    // of people, for those who stay where they are
 
     View view_;
     std::int64_t tick_ = 0;
     Surroundings around_;
     scene::RememberedActs acts_;
     std::vector<Seen> seen_;    // in the crowd's order
-    std::vector<float> depth_;  // [m] per person of those blocks; unseen: not in view; behind: hidden
+    std::vector<float> depth_;  // [m] per person of those not whole; unseen: not in view; behind: hidden
     Forecaster forecaster_;
     Survey survey_;
 

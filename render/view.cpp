@@ -70,6 +70,12 @@ Overlap overlap(const View& view, const motion::Bounds& world_box) {
     return result;
 }
 
+DepthRange depth_range(const View& view, const motion::Bounds& world_box) {
+    const float middle = view.depth(view.relative(world_box.center()));
+    const float reach = 0.5f * glm::dot(glm::abs(view.forward), world_box.size());
+    return {middle - reach, middle + reach};
+}
+
 bool sphere_visible(const View& view, glm::vec3 relative_center, float radius) {
     for (const glm::vec4& plane : view.planes)
         if (glm::dot(glm::vec3(plane), relative_center) + plane.w < -radius) return false;

@@ -38,4 +38,10 @@ enum class Overlap { outside, partly, inside };
 Overlap overlap(const View& view, const motion::Bounds& world_box);
 bool sphere_visible(const View& view, glm::vec3 relative_center, float radius);
 
+// [m] View depths of a world box.
+struct DepthRange {
+    float nearest, farthest;
+};
+DepthRange depth_range(const View& view, const motion::Bounds& world_box);
+
 }  // namespace render

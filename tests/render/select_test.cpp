@@ -322,6 +322,76 @@ TEST(Selection, HasOnlyThoseWhoHaveArrived) {
     EXPECT_EQ(before, select_once(view, {}).work[sfsm::WorkKind::person]);
 }
 
+// From so far away that all blocks of the stands are surveyed as one: the camera looks down from one and a half
+// kilometres, or along the ground.
+const render::View far_views[] = {
+    render::make_view({{0, 1500, 300}, {0, 0, 0}, 0.4}, 640, 360),
+    render::make_view({{900, 350, 700}, {0, 0, 0}, 0.5}, 640, 360),
+};
+
+// The forecast that asking person by person gives.
+sfsm::Forecast by_person(render::Forecaster& forecaster, const Frame& frame, float range,
+                         const render::SelectOptions& options) {
+    const tests::SmallScene& scene = small_scene();
+    forecaster.begin(range);
+    for (const render::Person& person : frame.people) {
+        const float pixels = frame.view.pixels_per_metre(person.depth), side = person.instance.scale * pixels;
+        forecaster.add(0, scene::Role::spectator, person.depth, options.density * scene.poses[0].area * side * side,
+                       pixels);
+    }
+    return forecaster.finish(options.theta);
+}
+
+// Blocks are a thirtieth of their distance deep, people's sizes those of the whole crowd: prices differ by a hundredth.
+TEST(Survey, BlocksThatAreFarAreWorthTheirPeople) {
+    constexpr double block_error = 0.01;
+    for (const figures::Way* way : {&figures::by_opengl(), &figures::natively()}) {
+        const render::SelectOptions options{.way = way};
+        Selector selector(small_scene().crowd, small_scene().cast, small_scene().figures(), options);
+        const auto staleness =
+            render::measure_staleness(small_scene().crowd, small_scene().cast, small_scene().figures());
+        render::Forecaster forecaster({{figures::Choices(small_scene().figures()[0], *way), staleness[0]}}, *way,
+                                      options.density);
+        for (const render::View& view : far_views) {
+            const render::Survey& survey = selector.survey(view, 100);
+            const Frame& frame = selector.select({}, 99);
+            float range = 1;
+            for (const render::Person& person : frame.people) range = std::max(range, person.depth);
+            EXPECT_EQ(survey.range, range);
+            EXPECT_EQ(survey.forecast.frame[sfsm::WorkKind::person], std::ssize(frame.people));
+            EXPECT_GT(frame.people.size(), small_scene().crowd.size() * 9 / 10);
+            const sfsm::Forecast exact = by_person(forecaster, frame, range, options);
+            for (std::size_t i = 0; i < exact.shapes.size(); ++i) {
+                const sfsm::Step &step = survey.forecast.shapes[i], &expected = exact.shapes[i];
+                const double cost = shape_cost(expected.work, *way);
+                EXPECT_NEAR(shape_cost(step.work, *way), cost, block_error * cost) << "S = " << expected.setting;
+                EXPECT_NEAR(step.loss_px, expected.loss_px, block_error * expected.loss_px);
+            }
+            for (std::size_t i = 0; i < exact.motion.size(); ++i) {
+                const auto updates = [](const sfsm::Step& step) {
+                    return static_cast<double>(step.work[sfsm::WorkKind::motion_update]);
+                };
+                EXPECT_NEAR(updates(survey.forecast.motion[i]), updates(exact.motion[i]),
+                            5 * block_error * updates(exact.motion[i]))
+                    << "D = " << exact.motion[i].setting;
+            }
+        }
+    }
+}
+
+// People who come in are counted one by one, far away too.
+TEST(Survey, FarBlocksFillAsPeopleCome) {
+    scene::Crowd crowd = small_scene().crowd;
+    crowd.filled_tick = 1000;
+    Selector selector(crowd, small_scene().cast, small_scene().figures());
+    const auto people = [&](std::int64_t tick) {
+        return static_cast<double>(selector.survey(far_views[0], tick).forecast.frame[sfsm::WorkKind::person]);
+    };
+    const double all = people(1000);
+    EXPECT_EQ(people(0), 0);
+    EXPECT_NEAR(people(500), all / 2, all / 20);
+}
+
 TEST(Forecast, CountsWhoMovesOnAverage) {
     for (const float theta : {motion::default_theta, 3 * motion::default_theta}) {
         Selector selector(small_scene().crowd, small_scene().cast, small_scene().figures(), {.theta = theta});
