@@ -119,11 +119,12 @@ private:
         const float range = selector_->survey(view, 0).range;
         for (const sfsm::State state : {sfsm::State::original, sfsm::State::points}) {
             if (options_.state && (*options_.state == sfsm::State::points) != (state == sfsm::State::points)) continue;
-            render::Frame frame = selector_->select(fixed_decision(options_, state, range), -1);
+            const render::Frame& everybody = selector_->select(fixed_decision(options_, state, range), -1);
+            render::Frame frame = {everybody.view,          everybody.splat_size, {},
+                                   everybody.batch_numbers, everybody.work,       everybody.state};
             std::set<std::pair<std::uint32_t, std::uint32_t>> kinds;
-            std::erase_if(frame.people, [&](const render::Person& person) {
-                return !kinds.emplace(person.character, person.representation).second;
-            });
+            for (const render::Person& person : everybody.people)
+                if (kinds.emplace(person.character, person.representation).second) frame.people.push_back(person);
             canvas_.renderer().begin(view);
             canvas_.renderer().draw(frame);
         }

@@ -1,4 +1,6 @@
 // add_standing: a jittered grid over pitch and plaza, taken from the middle outward.
+#include <tbb/parallel_for.h>
+
 #include <cassert>
 #include <cmath>
 #include <vector>
@@ -61,11 +63,11 @@ struct StandingPlace {
     std::uint64_t bits;
 };
 
-// Calls `visit` for each taken place of a cell.
-template <typename Visit>
-void for_each_place(const Gathering& gathering, const StadiumPlan& plan, Area area, Cell cell, Visit visit) {
+// The taken places of a cell.
+std::vector<StandingPlace> places_of(const Gathering& gathering, const StadiumPlan& plan, Area area, Cell cell) {
     constexpr float share_swing = 0.2f;  // clusters take up to so much more or less of the places than on average
     const float pitch = standing_pitch(plan.room);
+    std::vector<StandingPlace> places;
     for (int place = 0; place < cell_places * cell_places; ++place) {
         const int column = cell.x * cell_places + place % cell_places;
         const int row = cell.z * cell_places + place / cell_places;
@@ -76,8 +78,9 @@ void for_each_place(const Gathering& gathering, const StadiumPlan& plan, Area ar
         const float share = standing_share + share_swing * (2.0f * clustering(gathering, xz) - 1.0f);
         if (upper_unit(hash(bits, salt_density)) >= share) continue;
         const float offset = plan.oval.offset_of(xz);
-        if (is_free(plan, area, xz, offset)) visit(StandingPlace{xz, offset, bits});
+        if (is_free(plan, area, xz, offset)) places.push_back({xz, offset, bits});
     }
+    return places;
 }
 
 // The cells that reach between two parallels of the oval.
@@ -109,17 +112,15 @@ std::size_t bin_of(const Oval& oval, float offset) {
     return static_cast<std::size_t>(std::fmax(offset + oval.radius, 0.0f) / bin_width);
 }
 
-// The cut that leaves at most `wanted` of the cells' places. Two passes over places, each a function of its number,
-// take less than sorting them.
-Cut cut_after(const Gathering& gathering, const StadiumPlan& plan, Area area, const std::vector<Cell>& cells,
-              std::int64_t wanted) {
+// The cut that leaves at most `wanted` of the cells' places.
+Cut cut_after(const Oval& oval, const std::vector<std::vector<StandingPlace>>& cells, std::int64_t wanted) {
     std::vector<std::int64_t> bins;
-    for (const Cell& cell : cells) {
-        for_each_place(gathering, plan, area, cell, [&](const StandingPlace& place) {
-            const std::size_t bin = bin_of(plan.oval, place.offset);
+    for (const auto& places : cells) {
+        for (const StandingPlace& place : places) {
+            const std::size_t bin = bin_of(oval, place.offset);
             if (bin >= bins.size()) bins.resize(bin + 1, 0);
             ++bins[bin];
-        });
+        }
     }
     Cut cut{0, wanted};
     while (cut.bin < bins.size() && bins[cut.bin] <= cut.in_bin) cut.in_bin -= bins[cut.bin++];
@@ -145,15 +146,19 @@ std::int64_t fill_ground(Gathering& gathering, const StadiumPlan& plan, Area are
     if (wanted == 0) return 0;
     const Oval& oval = plan.oval;
     const std::vector<Cell> cells = cells_between(plan, inner, outer);
-    Cut cut = cut_after(gathering, plan, area, cells, wanted);
+    std::vector<std::vector<StandingPlace>> places(cells.size());
+    tbb::parallel_for(std::size_t{0}, cells.size(),
+                      [&](std::size_t i) { places[i] = places_of(gathering, plan, area, cells[i]); });
+    Cut cut = cut_after(oval, places, wanted);
     const std::size_t before = gathering.crowd.size();
-    for (const Cell& cell : cells) {
+    for (std::vector<StandingPlace>& cell : places) {
         gathering.open_block();
-        for_each_place(gathering, plan, area, cell, [&](const StandingPlace& place) {
+        for (const StandingPlace& place : cell) {
             const std::size_t bin = bin_of(oval, place.offset);
             if (bin < cut.bin || (bin == cut.bin && cut.in_bin-- > 0)) stand(gathering, oval, place);
-        });
+        }
         gathering.close_block();
+        cell = {};
     }
     return static_cast<std::int64_t>(gathering.crowd.size() - before);
 }
