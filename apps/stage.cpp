@@ -68,7 +68,11 @@ std::unique_ptr<Stage> build_stage(const std::vector<std::filesystem::path>& cha
         add_character(*stage, model::load_mesh(file), seed, pose_byte_budget / character_files.size(), cache, way);
     throw_if_interrupted();
     ProgressBar bar("Seating the crowd");
-    stage->place = scene::make_stadium({people, stage->cast, stage->poses, seed});
+    const auto show = [&](double fraction) {
+        throw_if_interrupted();
+        bar(fraction);
+    };
+    stage->place = scene::make_stadium({people, stage->cast, stage->poses, seed, show});
     return stage;
 }
 

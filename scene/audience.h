@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 
 #include "motion/pose_table.h"
@@ -14,7 +15,8 @@ struct Audience {
     // Who they are: 1 to 256 characters, and the poses of each. Must outlive the making of the place.
     std::span<const CastMember> cast;
     std::span<const motion::PoseTable> poses;
-    std::uint64_t seed = 0;  // of all that chance decides
+    std::uint64_t seed = 0;                  // of all that chance decides
+    std::function<void(double)> progress{};  // gets fractions in [0, 1] of the people who have their place
 };
 
 }  // namespace scene

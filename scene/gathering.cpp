@@ -108,6 +108,7 @@ void Gathering::close_block() {
         if (i == block.first) block.box = reach;
         include(block.box, reach);
     }
+    if (audience.progress) audience.progress(static_cast<double>(crowd.size()) / static_cast<double>(audience.people));
 }
 
 motion::Bounds Gathering::reach_of(std::size_t person) const {

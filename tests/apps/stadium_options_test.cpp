@@ -163,7 +163,7 @@ TEST(StadiumOptions, EachReachesItsFieldAndNoOther) {
 TEST(StadiumOptions, AreTakenUpToTheirLimits) {
     for (const std::vector<std::string>& good :
          std::vector<std::vector<std::string>>{{"--people", "1"},
-                                               {"--people", "1000000"},
+                                               {"--people", "10000000"},
                                                {"--pour-in", "1e6"},
                                                {"--seed", "0"},
                                                {"--frames", "1"},
@@ -178,7 +178,7 @@ TEST(StadiumOptions, AreTakenUpToTheirLimits) {
     }
     for (const std::vector<std::string>& bad :
          std::vector<std::vector<std::string>>{{"--people", "0"},
-                                               {"--people", "1000001"},
+                                               {"--people", "10000001"},
                                                {"--pour-in", "0"},
                                                {"--pour-in", "1000001"},
                                                {"--seed", "-1"},

@@ -59,13 +59,15 @@ void choose(benchmark::State& state, std::int64_t people, const std::string& cam
     std::size_t listed = 0;
     scene.selector.survey(view, tick, around);
     scene.selector.select(decision, tick - 1);
-    std::int64_t visible = 0;
+    std::int64_t visible = 0, hidden = 0;
     for (auto _ : state) {
         ++tick;
         const double start = process_ms();
-        visible = scene.selector.survey(view, tick, around).forecast.frame[sfsm::WorkKind::person];
+        const render::Survey& survey = scene.selector.survey(view, tick, around);
         const double surveyed = process_ms();
         listed = scene.selector.select(decision, tick - 1).people.size();
+        visible = survey.forecast.frame[sfsm::WorkKind::person];
+        hidden = survey.hidden;
         survey_ms += surveyed - start;
         select_ms += process_ms() - surveyed;
     }
@@ -73,6 +75,7 @@ void choose(benchmark::State& state, std::int64_t people, const std::string& cam
     state.counters["survey_ms"] = survey_ms / calls;
     state.counters["select_ms"] = select_ms / calls;
     state.counters["visible"] = static_cast<double>(visible);
+    state.counters["hidden"] = static_cast<double>(hidden);
     state.counters["listed"] = static_cast<double>(listed);
 }
 

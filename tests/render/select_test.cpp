@@ -379,6 +379,23 @@ TEST(Survey, BlocksThatAreFarAreWorthTheirPeople) {
     }
 }
 
+TEST(Survey, IsTheSameOnAnyNumberOfThreads) {
+    for (const render::View& view : {far_views[0], far_views[1], view_of("remote")}) {
+        std::vector<sfsm::Step> motion, shapes;
+        for (const int threads : {1, 2, 4}) {
+            const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+            Selector selector(small_scene().crowd, small_scene().cast, small_scene().figures());
+            const sfsm::Forecast forecast = selector.survey(view, 100).forecast;
+            if (threads == 1) {
+                motion.assign(forecast.motion.begin(), forecast.motion.end());
+                shapes.assign(forecast.shapes.begin(), forecast.shapes.end());
+            }
+            EXPECT_TRUE(std::ranges::equal(forecast.motion, motion)) << threads;
+            EXPECT_TRUE(std::ranges::equal(forecast.shapes, shapes)) << threads;
+        }
+    }
+}
+
 // People who come in are counted one by one, far away too.
 TEST(Survey, FarBlocksFillAsPeopleCome) {
     scene::Crowd crowd = small_scene().crowd;
