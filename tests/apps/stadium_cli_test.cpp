@@ -127,7 +127,7 @@ TEST(StadiumProgram, EveryKthPictureIsKept) {
 
 TEST(StadiumProgram, SaysWhatIsWrongWithItsArguments) {
     expect_usage_error("--people 0", "--people");
-    expect_usage_error("--people 1000001", "--people");
+    expect_usage_error("--people 10000001", "--people");
     expect_usage_error("--people -5", "--people");
     expect_usage_error("--people many", "--people");
     expect_usage_error("--target-ms nan", "--target-ms");
