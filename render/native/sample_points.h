@@ -5,8 +5,8 @@
 
 namespace render::native {
 
-// Where the samples of a pixel are [1/8 px], from its top left corner. Four see an edge five ways, whether it lies
-// nearly level or nearly upright: no two are in the same row or column.
+// Where the samples of a pixel are [1/8 px], from its top left corner. No two of four are in the same row or column, so
+// that an edge that is nearly level or upright crosses a pixel in five steps and not in three.
 struct SamplePoint {
     int x, y;
 };
