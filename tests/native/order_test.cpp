@@ -282,7 +282,7 @@ INSTANTIATE_TEST_SUITE_P(Metres, Order, testing::ValuesIn(distances));
 
 // Cells that are larger than pixels, or points that are fewer, by S [px]: the last with cells of pixels, cells that are
 // hardly larger, as large as S, and no whole number.
-const double last_of_pixels = std::exp2(0.75), first_of_its_own = std::exp2(1.25);
+const double last_of_pixels = std::exp2(0.25);
 class CoarseOrder : public testing::TestWithParam<double> {
 protected:
     static constexpr double distance = 50;
@@ -293,7 +293,7 @@ protected:
 TEST_P(CoarseOrder, CellsHardlyLargerThanPixelsShowWhatPixelsDo) {
     const double finest = last_of_pixels;
     if (GetParam() > finest + 0.01) GTEST_SKIP() << "larger";
-    const double larger = (GetParam() - finest) * (first_of_its_own - 1) / (first_of_its_own - finest);
+    const double larger = GetParam() / finest - 1;
     // [of 1] Two bytes of light, and of four cells' worth of points, which are placed to a 128th of a cell.
     constexpr double rounding = 0.015 + 4.0 / 128;
     const double off = larger * (width + height) + rounding;  // so far the last cells are aside of their pixels
