@@ -102,7 +102,7 @@ struct Reader {
         }
         const Json& fov = member(value, "fov_deg", place);
         const double angle = number(fov, place + ".fov_deg", min_fov, max_fov);
-        if (angle == min_fov || angle == max_fov) fail(place + ".fov_deg", quote(fov), "a number between 1 and 170");
+        if (angle == min_fov || angle == max_fov) fail(place + ".fov_deg", quote(fov), "a number over 1 and below 170");
         key.pose.fov_y = angle * std::numbers::pi / 180;
         key.cut = flag(value, "cut", place + ".");
         return key;

@@ -197,13 +197,16 @@ struct White {
 // same person's mesh, projected in double precision onto so many samples a pixel, is the truth.
 class Alone {
 public:
-    Alone(double height_px, double yaw, double elevation, int pose) : pose_(pose), height_px_(height_px) {
+    // `aside`: [px] of the picture's middle; where in a cell somebody is changes how much a pixel takes of it.
+    Alone(double height_px, double yaw, double elevation, int pose, glm::dvec2 aside)
+        : pose_(pose), height_px_(height_px) {
         const motion::PoseTable& poses = place().poses[0];
         const double distance = 40, middle = poses.box.center().y;
         const double fov = 2 * std::atan(0.5 * side * poses.rest_height / (height_px * distance));
         const glm::dvec3 eye =
             glm::dvec3(0, middle, 0) + distance * glm::dvec3(0, std::sin(elevation), std::cos(elevation));
-        view_ = render::make_view({eye, {0.03, middle + 0.02, 0}, fov}, side, side);
+        const glm::dvec2 off = poses.rest_height / height_px * aside;
+        view_ = render::make_view({eye, {0.03 + off.x, middle + 0.02 + off.y, 0}, fov}, side, side);
         sine_ = static_cast<std::int16_t>(std::lround(32767 * std::sin(yaw)));
         cosine_ = static_cast<std::int16_t>(std::lround(32767 * std::cos(yaw)));
     }
@@ -308,7 +311,8 @@ TEST(NativePoints, CoverWhatTheMeshDoes) {
         for (const double splat_size : {0.6, 1.0, 2.0, 4.0}) {
             double covered = 0, truth = 0, worst = 0;
             for (int i = 0; i < 24; ++i) {
-                const Alone person(height, 0.7 * i, 0.12 * i - 0.4, i * 97 % poses);
+                const glm::dvec2 aside(std::fmod(1.618034 * i, 4.0), std::fmod(2.754878 * i, 4.0));
+                const Alone person(height, 0.7 * i, 0.12 * i - 0.4, i * 97 % poses, aside);
                 const double one = person.natively(splat_size), of = person.truly();
                 covered += one;
                 truth += of;
