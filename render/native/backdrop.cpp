@@ -3,37 +3,18 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cassert>
 #include <cstring>
-#include <map>
 #include <tuple>
 
 #include "render/frame_block.h"
 #include "render/native/cell.h"
+#include "render/native/numbering.h"
 #include "render/native/raster.h"
 
 namespace render::native {
 
 namespace {
-
-// Gives every position one number, in the order of first use.
-class Numbering {
-public:
-    std::uint32_t of(glm::vec3 position) {
-        // By their bits, among which there is an order whatever they mean.
-        const auto bits = std::bit_cast<std::array<std::uint32_t, 3>>(position);
-        const auto [found, is_new] = numbers_.try_emplace(bits, static_cast<std::uint32_t>(positions_.size()));
-        if (is_new) positions_.push_back(position);
-        return found->second;
-    }
-    const std::vector<glm::vec3>& positions() const { return positions_; }
-
-private:
-    std::map<std::array<std::uint32_t, 3>, std::uint32_t> numbers_;
-    std::vector<glm::vec3> positions_;
-};
 
 // Cells that a triangle's box touches, inclusive.
 struct CellBox {

@@ -3,12 +3,12 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <map>
 #include <numeric>
 #include <utility>
 
+#include "render/native/numbering.h"
 #include "render/native/raster.h"
 
 namespace render::native {
@@ -16,22 +16,6 @@ namespace render::native {
 namespace {
 
 constexpr int half = subpixels / 2;
-
-// Gives every position one number, in the order of first use.
-class Numbering {
-public:
-    std::uint32_t of(glm::vec3 position) {
-        const auto bits = std::bit_cast<std::array<std::uint32_t, 3>>(position);
-        const auto [found, is_new] = numbers_.try_emplace(bits, static_cast<std::uint32_t>(positions.size()));
-        if (is_new) positions.push_back(position);
-        return found->second;
-    }
-
-    std::vector<glm::vec3> positions;
-
-private:
-    std::map<std::array<std::uint32_t, 3>, std::uint32_t> numbers_;
-};
 
 int edge_count(const Panel& panel) {
     return panel.is_triangle() ? 3 : 4;
@@ -77,11 +61,11 @@ void Occluder::add_sectors(const scene::StaticMesh& structure) {
         if (triangles.empty()) continue;
         Sector& sector = sectors_.emplace_back();
         sector.box = from.box;
-        sector.panels = make_panels(numbering.positions, triangles, std::vector<std::uint32_t>(triangles.size()));
+        sector.panels = make_panels(numbering.positions(), triangles, std::vector<std::uint32_t>(triangles.size()));
         for (Panel& panel : sector.panels) panel.surface = panels++;
     }
     if (panels > 0) {
-        corners_ = Corners(numbering.positions);
+        corners_ = Corners(numbering.positions());
         screen_ = ScreenCorners(corners_.count);
     }
     is_firm_.resize(panels);

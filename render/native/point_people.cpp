@@ -200,11 +200,11 @@ void color(const Sight& sight, SplatPerson& out) {
             out.mean_light[channel] += lights[slot][channel] * (out.palette[channel][slot] / unit);
 }
 
-// [px] The side of cells for S: at least four fifths of a point each, half of which face the eye. Fewer leave holes, and
-// more cells than that are blurred for nothing.
+// [px] The side of cells for S: four fifths of a point or more a cell, half of which face the eye. Smaller cells have
+// holes, and larger ones blur.
 float cell_of(float splat_size) {
-    constexpr float cells_a_point = 0.8408964f;  // along a side
-    return std::max(1.0f, cells_a_point * splat_size);
+    constexpr float share = 0.8408964f;  // of S
+    return std::max(1.0f, share * splat_size);
 }
 
 }  // namespace
