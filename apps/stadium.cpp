@@ -120,8 +120,12 @@ private:
         for (const sfsm::State state : {sfsm::State::original, sfsm::State::points}) {
             if (options_.state && (*options_.state == sfsm::State::points) != (state == sfsm::State::points)) continue;
             const render::Frame& everybody = selector_->select(fixed_decision(options_, state, range), -1);
-            render::Frame frame = {everybody.view,          everybody.splat_size, {},
-                                   everybody.batch_numbers, everybody.work,       everybody.state};
+            render::Frame frame;
+            frame.view = everybody.view;
+            frame.splat_size = everybody.splat_size;
+            frame.far_people = everybody.far_people;
+            frame.batch_numbers = everybody.batch_numbers;
+            if (!everybody.far_blocks.empty()) frame.far_blocks = {everybody.far_blocks.front()};
             std::set<std::pair<std::uint32_t, std::uint32_t>> kinds;
             for (const render::Person& person : everybody.people)
                 if (kinds.emplace(person.character, person.representation).second) frame.people.push_back(person);

@@ -17,9 +17,10 @@ double cost_of(const Level& level, const std::array<double, sfsm::work_kinds>& p
 }  // namespace
 
 Choices::Choices(const Figure& figure, const Way& way) {
-    std::vector<Choice> offers;
+    std::vector<Choice> offers, of_blocks;
     for (std::uint32_t i = 0; i < way.representations.size(); ++i)
-        for (const Level& level : way.representations[i].levels(figure)) offers.push_back({i, level});
+        for (const Level& level : way.representations[i].levels(figure))
+            (way.representations[i].is_by_block ? of_blocks : offers).push_back({i, level});
     // `better` serves whoever `other` serves, for less, or for as much and comes later.
     const auto replaces = [&](const Choice& better, const Choice& other) {
         const double cost = cost_of(better.level, way.pieces), other_cost = cost_of(other.level, way.pieces);
@@ -32,6 +33,11 @@ Choices::Choices(const Figure& figure, const Way& way) {
     assert(!all_.empty());
     for (std::uint32_t i = 0; i < all_.size(); ++i) by_cost_.push_back({all_[i].level.reach, i});
     std::ranges::sort(by_cost_, {}, &Reach::reach);  // cost rises along it too: else one replaced another
+    assert(of_blocks.size() <= 1);
+    for (const Choice& offer : of_blocks) {
+        block_ = {offer.level.reach, static_cast<std::uint32_t>(all_.size())};
+        all_.push_back(offer);
+    }
 }
 
 }  // namespace figures

@@ -16,27 +16,33 @@ struct Choice {
 
 class Choices {
 public:
-    // Levels that are never the cheapest are left out; of equal cost, the later representation is taken.
+    // Levels that are never the cheapest are left out; of equal cost, the later representation is taken. What only
+    // blocks are drawn as replaces nothing: it is kept beside the rest.
     Choices(const Figure& figure, const Way& way);
 
     // By representation, each from its coarsest level to its finest.
     std::span<const Choice> all() const { return all_; }
 
-    // Into all(): for a demand > 0. Who asks for more than anything serves has the dearest.
+    // Into all(): for a demand > 0, of somebody alone. Who asks for more than anything serves has the dearest.
     std::uint32_t at(float demand) const {
         std::size_t i = 0;
         while (i + 1 < by_cost_.size() && !(demand <= by_cost_[i].reach)) ++i;
         return by_cost_[i].choice;
     }
+    // The same of people of a block that is drawn as one where that serves them.
+    std::uint32_t in_block_at(float demand) const { return demand <= block_.reach ? block_.choice : at(demand); }
+    // The greatest demand of which a block is drawn as one; < 0: it never is.
+    float block_reach() const { return block_.reach; }
     // What serves any demand: the artist's own shape.
     std::uint32_t exact() const { return by_cost_.back().choice; }
 
 private:
     struct Reach {
-        float reach;
-        std::uint32_t choice;
+        float reach = -1;
+        std::uint32_t choice = 0;
     };
     std::vector<Choice> all_;
+    Reach block_;
     std::vector<Reach> by_cost_;  // cost and reach rise along it
 };
 

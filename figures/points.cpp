@@ -36,6 +36,7 @@ std::vector<Level> point_levels(const Figure& figure) {
     std::uint32_t first = 0;
     for (const std::uint32_t count : prefixes(static_cast<std::size_t>(figure.poses->point_count))) {
         Level& level = levels.emplace_back();
+        level.work[sfsm::WorkKind::single] = 1;
         level.work[sfsm::WorkKind::point] = count;
         level.reach = static_cast<float>(count);
         level.first = first;
@@ -53,6 +54,7 @@ std::vector<Level> native_point_levels(const Figure& figure) {
     std::vector<Level> levels;
     for (const std::uint32_t count : counts) {
         Level& level = levels.emplace_back();
+        level.work[sfsm::WorkKind::single] = 1;
         level.work[sfsm::WorkKind::point] = count;
         level.reach = static_cast<float>(count);
         level.count = count;

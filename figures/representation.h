@@ -43,8 +43,7 @@ inline Part part_of(const Level& level, float demand) {
     if (!level.by_ones) return {level.count, 1.0f, level.work};
     const auto samples =
         std::clamp(demand, static_cast<float>(std::min(fewest_points, level.count)), static_cast<float>(level.count));
-    Part part;
-    part.count = static_cast<std::uint32_t>(std::ceil(samples));
+    Part part{static_cast<std::uint32_t>(std::ceil(samples)), 1.0f, level.work};
     part.last_share = samples - static_cast<float>(part.count - 1);
     part.work[sfsm::WorkKind::point] = part.count;
     return part;
@@ -58,6 +57,7 @@ struct Representation {
     // [px] How far the outline of a person is off who is drawn so for a given S [px] >= 0. `silhouette`: the side of a
     // square as large as theirs [px].
     double (*outline_px)(double splat_size, double silhouette) = nullptr;
+    bool is_by_block = false;  // whole blocks of the crowd are drawn so, and nobody alone
 };
 
 }  // namespace figures

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "figures/points.h"
+#include "figures/splats.h"
 #include "figures/triangles.h"
 
 namespace figures {
@@ -27,13 +28,13 @@ std::size_t points_worth(std::size_t triangle_count, const Way& way) {
 }
 
 const Way& by_opengl() {
-    static constexpr Representation list[] = {triangles, points};
+    static constexpr Representation list[] = {triangles, points, splats};
     static constexpr Way way = way_of(sfsm::Drawing::opengl, list, 0.0f, 0.5f, 16384);
     return way;
 }
 
 const Way& natively() {
-    static constexpr Representation list[] = {triangles, native_points};
+    static constexpr Representation list[] = {triangles, native_points, splats};
     static constexpr Way way = way_of(sfsm::Drawing::native, list, 4.0f, 0.0f, 4096);
     return way;
 }

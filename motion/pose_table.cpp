@@ -195,11 +195,10 @@ void pack_poses(const model::Character& character, std::span<const int> clips, s
 
 }  // namespace
 
-int PoseTable::pose_at(int clip, std::int64_t tick) const {
-    const ClipPoses& poses = clips[static_cast<std::size_t>(clip)];
-    const std::int64_t period = poses.ticks();
+int ClipPoses::pose_at(std::int64_t tick) const {
+    const std::int64_t period = ticks();
     const std::int64_t in_period = (tick % period + period) % period;
-    return poses.first_pose + static_cast<int>(in_period / poses.ticks_per_pose);
+    return first_pose + static_cast<int>(in_period / ticks_per_pose);
 }
 
 PoseTable bake_poses(const model::Character& character, std::span<const int> clips,

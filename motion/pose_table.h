@@ -30,6 +30,7 @@ struct ClipPoses {
     int pose_count = 1;
     int ticks_per_pose = 1;
     int ticks() const { return pose_count * ticks_per_pose; }  // the clip's period
+    int pose_at(std::int64_t tick) const;                      // wraps
 };
 
 struct PoseTable {
@@ -45,7 +46,12 @@ struct PoseTable {
     float area = 0;         // largest surface area over the poses [model units^2]
 
     // Of clip `clip` (into clips) at integer time `tick` of its own; wraps.
-    int pose_at(int clip, std::int64_t tick) const;
+    int pose_at(int clip, std::int64_t tick) const {
+        const ClipPoses& poses = clips[static_cast<std::size_t>(clip)];
+        // Most are asked about their first period, pose by pose.
+        if (tick < 0 || tick >= poses.pose_count || poses.ticks_per_pose != 1) return poses.pose_at(tick);
+        return poses.first_pose + static_cast<int>(tick);
+    }
 };
 
 // Skins all poses.

@@ -55,7 +55,6 @@ void Forecaster::begin(float range) {
     for (auto& roles : pixels_) roles.fill({});
     for (auto& histogram : people_by_demand_) histogram.fill(0);
     for (auto& histogram : people_of_blocks_) histogram.fill(0);
-    has_blocks_ = false;
 }
 
 void Forecaster::count(std::size_t kind, scene::Role role, std::int64_t people, float depth, float pixels_per_metre) {
@@ -76,30 +75,23 @@ void Forecaster::add_block(std::size_t kind, scene::Role role, std::int64_t peop
                            float demand_at_unit_splat, float pixels_per_metre) {
     count(kind, role, people, depth, pixels_per_metre);
     people_of_blocks_[kind][bin_of(demand_at_unit_splat)] += static_cast<std::int32_t>(people);
-    has_blocks_ = true;
 }
 
-// Shares out each bin of blocks' people over what they ask for. What rounding leaves goes on to the next share, so that
+// Shares out a bin of blocks' people over what they ask for. What rounding leaves goes on to the next share, so that
 // everybody is counted once.
-void Forecaster::spread_blocks() {
-    for (std::size_t kind = 0; has_blocks_ && kind < kinds_.size(); ++kind) {
-        const std::vector<float>& spread = kinds_[kind].spread;
-        const auto shares = static_cast<std::int64_t>(spread.size());
-        std::int64_t rest = 0;  // [people / shares]
-        for (int bin = 0; bin < demand_bins; ++bin) {
-            const std::int64_t people = people_of_blocks_[kind][bin];
-            if (people == 0) continue;
-            for (const float share : spread) {
-                const std::int64_t whole = (people + rest) / shares;
-                rest += people - whole * shares;
-                people_by_demand_[kind][bin_of(share * demand_of(bin))] += static_cast<std::int32_t>(whole);
-            }
-        }
+template <typename Visit>
+void Forecaster::for_each_share(std::size_t kind, int bin, Visit visit) const {
+    const std::vector<float>& spread = kinds_[kind].spread;
+    const auto shares = static_cast<std::int64_t>(spread.size());
+    std::int64_t rest = shares / 2;  // [people / shares]
+    for (const float share : spread) {
+        rest += people_of_blocks_[kind][bin];
+        visit(bin_of(share * demand_of(bin)), static_cast<std::int32_t>(rest / shares));
+        rest %= shares;
     }
 }
 
 sfsm::Forecast Forecaster::finish(float theta) {
-    spread_blocks();
     price_motion(theta);
     price_shapes();
     return {sfsm::Work{people_}, motion_, shapes_};
@@ -127,28 +119,43 @@ void Forecaster::price_motion(float theta) {
 }
 
 void Forecaster::price_shapes() {
+    for (int step = 0; step < shape_steps; ++step) {
+        shapes_[step] = {};
+        if (step > 0)
+            shapes_[step].setting = sfsm::max_splat_size * std::exp2((step - (shape_steps - 1)) / steps_per_octave);
+    }
+    for (std::size_t kind = 0; kind < kinds_.size(); ++kind) price_shapes_of(kind);
     const double everybody = std::max<double>(1.0, static_cast<double>(people_));
+    for (sfsm::Step& step : shapes_) step.loss_px /= everybody;
+}
+
+// The greater S is, the more blocks are drawn as one: from the smallest S on, people leave those who are drawn alone.
+void Forecaster::price_shapes_of(std::size_t kind) {
+    const figures::Choices& choices = kinds_[kind].choices;
+    drawn_alone_ = people_by_demand_[kind];
+    for (int bin = 0; bin < demand_bins; ++bin)
+        if (people_of_blocks_[kind][bin] > 0)
+            for_each_share(kind, bin, [&](int to, std::int32_t people) { drawn_alone_[to] += people; });
+    int first_alone = 0;  // of blocks' bins
     for (int step = 0; step < shape_steps; ++step) {
         sfsm::Step& out = shapes_[step];
-        out = {};
-        if (step > 0) out.setting = sfsm::max_splat_size * std::exp2((step - (shape_steps - 1)) / steps_per_octave);
         // S = 32 px is ten octaves of demand down.
         const int shift = (step - (shape_steps - 1)) * bins_per_shape_step + 10 * bins_per_octave;
-        double loss = 0;
-        for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
-            const figures::Choices& choices = kinds_[kind].choices;
-            for (int bin = 0; bin < demand_bins; ++bin) {
-                const std::int64_t people = people_by_demand_[kind][bin];
-                if (people == 0) continue;
-                const int asked = std::clamp(bin - shift, 0, demand_bins - 1);
-                const std::uint32_t choice = step == 0 ? choices.exact() : choices_[kind][asked];
-                const auto& [representation, level] = choices.all()[choice];
-                out.work += figures::part_of(level, demand_of(asked)).work * people;
-                loss += static_cast<double>(people) *
-                        way_->representations[representation].outline_px(out.setting, silhouettes_[bin]);
-            }
-        }
-        out.loss_px = loss / everybody;
+        const auto asked = [shift](int bin) { return std::clamp(bin - shift, 0, demand_bins - 1); };
+        const auto add = [&](std::uint32_t choice, int bin, std::int64_t people) {
+            const auto& [representation, level] = choices.all()[choice];
+            out.work += figures::part_of(level, demand_of(asked(bin))).work * people;
+            out.loss_px += static_cast<double>(people) *
+                           way_->representations[representation].outline_px(out.setting, silhouettes_[bin]);
+        };
+        while (step > 0 && first_alone < demand_bins && demand_of(asked(first_alone)) <= choices.block_reach())
+            for_each_share(kind, first_alone++, [&](int to, std::int32_t people) { drawn_alone_[to] -= people; });
+        for (int bin = 0; bin < first_alone; ++bin)
+            if (const std::int64_t people = people_of_blocks_[kind][bin]; people > 0)
+                add(choices.in_block_at(demand_of(asked(bin))), bin, people);
+        for (int bin = 0; bin < demand_bins; ++bin)
+            if (const std::int64_t people = drawn_alone_[bin]; people > 0)
+                add(step == 0 ? choices.exact() : choices_[kind][asked(bin)], bin, people);
     }
 }
 

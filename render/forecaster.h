@@ -31,8 +31,8 @@ public:
     // One visible person of a kind: view depth [m], their demand at S = 1 px (figures/representation.h), and pixels
     // that a metre covers at their depth.
     void add(std::size_t kind, scene::Role role, float depth, float demand_at_unit_splat, float pixels_per_metre);
-    // Several people of a kind and role who are all about as far. `demand_at_unit_splat` is that of people of mean
-    // size; how sizes differ is the kind's own.
+    // Several people of a kind and role who are all about as far, and of a block that can be drawn as one.
+    // `demand_at_unit_splat` is that of people of mean size; how sizes differ is the kind's own.
     void add_block(std::size_t kind, scene::Role role, std::int64_t people, float depth, float demand_at_unit_splat,
                    float pixels_per_metre);
     // `theta` is equation 1's. Valid until the next begin().
@@ -45,9 +45,11 @@ private:
     static constexpr int shape_steps = 28;  // S = 0, then quarter octaves from 0.35 px to 32 px
 
     void count(std::size_t kind, scene::Role role, std::int64_t people, float depth, float pixels_per_metre);
-    void spread_blocks();
     void price_motion(float theta);
     void price_shapes();
+    void price_shapes_of(std::size_t kind);
+    template <typename Visit>
+    void for_each_share(std::size_t kind, int bin, Visit visit) const;
     static int bin_of(float demand);
     static float demand_of(int bin);
 
@@ -62,7 +64,7 @@ private:
     std::vector<std::array<Pixels, scene::role_count>> pixels_;  // per kind
     // Per kind, at S = 1 px: people, and of those of blocks by what people of mean size ask for.
     std::vector<std::array<std::int32_t, demand_bins>> people_by_demand_, people_of_blocks_;
-    bool has_blocks_ = false;
+    std::array<std::int32_t, demand_bins> drawn_alone_{};  // of the kind and step that are priced
     // Per kind: what serves a bin's demand. Under S demand goes with 1 / S^2, which is a shift of bins: looked up.
     std::vector<std::array<std::uint32_t, demand_bins>> choices_;
     std::array<sfsm::Step, motion_steps> motion_;

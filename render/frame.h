@@ -6,16 +6,22 @@
 #include <vector>
 
 #include "render/view.h"
+#include "scene/crowd.h"
 #include "scene/palette.h"
 #include "sfsm/decision.h"
 
 namespace render {
 
+// About the vertical.
+struct Turn {
+    std::int16_t sin_yaw = 0, cos_yaw = 0;  // snorm
+};
+
 // One person.
 struct Instance {
-    glm::vec3 position;             // [m] of the model's origin, camera-relative
-    float scale;                    // [m / model unit]
-    std::int16_t sin_yaw, cos_yaw;  // snorm
+    glm::vec3 position;  // [m] of the model's origin, camera-relative
+    float scale;         // [m / model unit]
+    Turn turn;
     scene::Palette palette;
 };
 static_assert(sizeof(Instance) == 20 + 4 * model::slot_count);
@@ -32,10 +38,30 @@ struct Person {
     float depth;                   // [m] view depth of their middle, > 0
 };
 
+// People of a block of the crowd who are all drawn as one splat each, and none by oneself.
+struct FarBlock {
+    std::uint32_t block;  // into Crowd::blocks
+    float depth;          // [m] view depth of the middle of its box, > 0
+    std::int64_t tick;    // at which its people were asked what they do
+    bool operator==(const FarBlock&) const = default;
+};
+
+// Crowds of fewer have no far blocks: so many people are drawn at once.
+inline constexpr int fewest_far_people = 16;
+
+// What far blocks are drawn from. Each by person of the whole crowd.
+struct FarPeople {
+    const scene::Crowd* crowd = nullptr;
+    const Turn* turns = nullptr;
+    const std::uint8_t* keys = nullptr;  // of figures::splat_keys; only those of blocks that are drawn
+};
+
 struct Frame {
     View view;
-    double splat_size = 0;            // S [px]
-    std::vector<Person> people;       // in the crowd's order
+    double splat_size = 0;             // S [px]
+    std::vector<Person> people;        // in the crowd's order; none of far blocks
+    std::vector<FarBlock> far_blocks;  // in the crowd's order
+    FarPeople far_people;
     std::uint32_t batch_numbers = 0;  // Person::batch is below it; it rises with character, representation, level, pose
     sfsm::Work work;
     // What became of the decision: 2 if anybody is drawn by anything but a mesh, else 1 if anybody moves less often

@@ -30,12 +30,14 @@ Selector::Selector(const scene::Crowd& crowd, std::span<const scene::CastMember>
       figures_(figures.begin(), figures.end()),
       options_(options),
       acts_(crowd),
-      depth_(crowd.size()) {
+      depth_(crowd.size()),
+      far_keys_(crowd.size()) {
     for (const figures::Figure& figure : figures_) {
-        Kind& kind = kinds_.emplace_back(Kind{figures::Choices(figure, *options_.way)});
+        Kind& kind = kinds_.emplace_back(Kind{.choices = figures::Choices(figure, *options_.way)});
         const motion::Bounds& box = figure.poses->box;
         const glm::vec3 reach = glm::max(glm::abs(box.min), glm::abs(box.max));
         kind.first_batch = frame_.batch_numbers;
+        kind.keys = figures::splat_keys(*figure.poses);
         kind.center = glm::vec3(0.0f, box.center().y, 0.0f);
         kind.radius = glm::length(glm::vec3(reach.x, 0.5f * box.size().y, reach.z));
         kind.overhang = options_.way->overhang * std::sqrt(0.25f * figure.poses->area);
@@ -96,7 +98,7 @@ std::vector<std::vector<float>> Selector::find_spreads() {
     return spreads;
 }
 
-Selector::Turn Selector::turn_of(float yaw) {
+Turn Selector::turn_of(float yaw) {
     return {snorm16(std::sin(yaw)), snorm16(std::cos(yaw))};
 }
 
@@ -104,7 +106,7 @@ template <typename Visit>
 void Selector::for_each_visible(const Seen& seen, Visit visit) const {
     const scene::CrowdBlock& block = crowd_.blocks[seen.block];
     for (std::size_t person = block.first; person < block.first + block.count; ++person) {
-        const float depth = seen.whole ? depth_of(person) : depth_[person];
+        const float depth = seen.whole() ? depth_of(person) : depth_[person];
         if (depth > 0) visit(person, depth);
     }
 }
@@ -122,7 +124,7 @@ const Survey& Selector::survey(const View& view, std::int64_t tick, const Surrou
     survey_.hidden = 0;
     find_blocks();
     for_each_seen([&](Seen& seen) {
-        if (!seen.whole) find_visible(seen);
+        if (!seen.whole()) find_visible(seen);
     });
     find_range();
     forecast();
@@ -131,7 +133,11 @@ const Survey& Selector::survey(const View& view, std::int64_t tick, const Surrou
 
 void Selector::find_blocks() {
     tbb::parallel_for(
-        std::size_t{0}, blocks_.size(), [&](std::size_t block) { blocks_[block].look = look_at(block); },
+        std::size_t{0}, blocks_.size(),
+        [&](std::size_t block) {
+            blocks_[block].look = look_at(block);
+            blocks_[block].small = is_small(block);
+        },
         tbb::static_partitioner());
     seen_.clear();
     for (std::uint32_t block = 0; block < blocks_.size(); ++block) {
@@ -140,9 +146,9 @@ void Selector::find_blocks() {
         if (look == Look::hidden || look == Look::outside) continue;
         Seen& seen = seen_.emplace_back();
         seen.block = block;
-        seen.inside = look != Look::partly;
-        seen.whole = look == Look::whole;
-        if (seen.whole) seen.visible = crowd_.blocks[block].count;
+        seen.inside = look == Look::inside;
+        seen.small = blocks_[block].small;
+        if (seen.whole()) seen.visible = crowd_.blocks[block].count;
     }
 }
 
@@ -152,14 +158,13 @@ Selector::Look Selector::look_at(std::size_t block) const {
     if (seen == Overlap::outside) return Look::outside;
     if (around_.occlusion && around_.occlusion->hides_box(view_, {box.min - overhang_, box.max + overhang_}))
         return Look::hidden;
-    if (seen == Overlap::partly) return Look::partly;
-    return is_small(block) ? Look::whole : Look::inside;
+    return seen == Overlap::partly ? Look::partly : Look::inside;
 }
 
 // Whoever is as near as some radii may be drawn otherwise than their middle says.
 bool Selector::is_small(std::size_t block) const {
     const Block& known = blocks_[block];
-    if (!known.stays || tick_ < crowd_.filled_tick) return false;
+    if (!known.stays || tick_ < crowd_.filled_tick || crowd_.size() < fewest_far_people) return false;
     const DepthRange depths = depth_range(view_, crowd_.blocks[block].box);
     return depths.farthest - depths.nearest <= small_spread * depths.nearest &&
            depths.nearest >= options_.way->nearest * known.reach &&
@@ -185,7 +190,7 @@ void Selector::find_visible(Seen& seen) {
     }
 }
 
-// Of blocks that are surveyed as one, only people of those are looked at that may reach beyond all others: no block's
+// Of blocks of which all people show, only people of those are looked at that may reach beyond all others: no block's
 // farthest is nearer than its middle.
 void Selector::find_range() {
     survey_.range = 1.0f;
@@ -193,12 +198,13 @@ void Selector::find_range() {
     for (const Seen& seen : seen_) {
         survey_.hidden += seen.hidden;
         survey_.range = std::max(survey_.range, seen.range);
+        if (!seen.whole()) continue;
         for (const Group& group : groups_of(seen))
             reached = std::max(reached, view_.depth(view_.relative(group.middle)));
     }
     reached = std::max(reached, survey_.range);
     for (const Seen& seen : seen_) {
-        if (!seen.whole || depth_range(view_, crowd_.blocks[seen.block].box).farthest < reached) continue;
+        if (!seen.whole() || depth_range(view_, crowd_.blocks[seen.block].box).farthest < reached) continue;
         for_each_visible(seen, [&](std::size_t, float depth) { survey_.range = std::max(survey_.range, depth); });
     }
 }
@@ -206,13 +212,10 @@ void Selector::find_range() {
 void Selector::forecast() {
     forecaster_.begin(survey_.range);
     for (const Seen& seen : seen_) {
-        for (const Group& group : groups_of(seen)) {
-            const float depth = std::max(view_.depth(view_.relative(group.middle)), near_plane);
-            const float pixels = view_.pixels_per_metre(depth), square = kinds_[group.character].mean_square;
-            forecaster_.add_block(group.character, group.role, group.people, depth,
-                                  demand_of(group.character, square, pixels), pixels);
+        if (seen.small) {
+            forecast_as_one(seen);
+            continue;
         }
-        if (seen.whole) continue;
         for_each_visible(seen, [&](std::size_t person, float depth) {
             forecaster_.add(crowd_.character[person], crowd_.role[person], depth, demand_at_unit_splat(person, depth),
                             view_.pixels_per_metre(depth));
@@ -222,30 +225,57 @@ void Selector::forecast() {
     survey_.forecast.frame += around_.work;
 }
 
+// Those of its people who show are shared out over its groups as all of them are.
+void Selector::forecast_as_one(const Seen& seen) {
+    const std::uint64_t all = crowd_.blocks[seen.block].count;
+    std::uint64_t before = 0;
+    for (const Group& group : groups_of(seen)) {
+        const std::uint64_t until = before + group.people;
+        const std::uint64_t people = until * seen.visible / all - before * seen.visible / all;
+        const float depth = std::max(view_.depth(view_.relative(group.middle)), near_plane);
+        forecaster_.add_block(group.character, group.role, static_cast<std::int64_t>(people), depth,
+                              mean_demand_of(group), view_.pixels_per_metre(depth));
+        before = until;
+    }
+}
+
 std::span<const Selector::Group> Selector::groups_of(const Seen& seen) const {
-    if (!seen.whole) return {};
     return std::span(groups_).subspan(blocks_[seen.block].first_group, blocks_[seen.block].groups);
 }
 
 const Frame& Selector::select(const sfsm::Decision& decision, std::int64_t last_tick) {
+    find_far_blocks(decision);
     make_room();
-    for_each_seen([&](Seen& seen) { choose(seen, decision, last_tick); });
+    for_each_seen([&](Seen& seen) {
+        seen.is_far ? choose_as_one(seen, decision, last_tick) : choose(seen, decision, last_tick);
+    });
     sum_up();
+    frame_.far_people = {&crowd_, turns_.data(), far_keys_.data()};
     frame_.view = view_;
     frame_.splat_size = decision.splat_size;
     return frame_;
 }
 
+// Where one splat serves people of mean size of each kind.
+void Selector::find_far_blocks(const sfsm::Decision& decision) {
+    const auto splat_area = static_cast<float>(decision.splat_size * decision.splat_size);
+    for (Seen& seen : seen_)
+        seen.is_far = seen.small && splat_area > 0 && std::ranges::all_of(groups_of(seen), [&](const Group& group) {
+                          return mean_demand_of(group) <= splat_area * kinds_[group.character].choices.block_reach();
+                      });
+}
+
 // Each block's people have a place in the frame that is known beforehand: any thread may write them.
 void Selector::make_room() {
-    std::size_t people = 0;
+    std::size_t people = 0, far_blocks = 0;
     for (Seen& seen : seen_) {
-        seen.first_drawn = static_cast<std::uint32_t>(people);
-        people += seen.visible;
+        seen.first_drawn = static_cast<std::uint32_t>(seen.is_far ? far_blocks : people);
+        (seen.is_far ? far_blocks : people) += seen.is_far ? 1 : seen.visible;
     }
     // Not twice as much as is needed, which a vector would take.
     if (people > frame_.people.capacity()) frame_.people.reserve(std::min(people + people / 4, crowd_.size()));
     frame_.people.resize(people);
+    frame_.far_blocks.resize(far_blocks);
 }
 
 void Selector::choose(Seen& seen, const sfsm::Decision& decision, std::int64_t last_tick) {
@@ -256,15 +286,44 @@ void Selector::choose(Seen& seen, const sfsm::Decision& decision, std::int64_t l
         seen, [&](std::size_t person, float depth) { *drawn++ = choose(person, depth, decision, last_tick, seen); });
 }
 
+// All of them move in the same frames, and their keys, which are a good part of a second apart, are found every few
+// ticks.
+void Selector::choose_as_one(Seen& seen, const sfsm::Decision& decision, std::int64_t last_tick) {
+    const scene::CrowdBlock& block = crowd_.blocks[seen.block];
+    const float depth = std::max(view_.depth(view_.relative(block.box.center())), near_plane);
+    int period = 1;
+    if (decision.state != sfsm::State::original)
+        period = motion::update_period(depth, static_cast<float>(decision.motion_distance), options_.theta);
+    const std::int64_t due = motion::due_tick(tick_, period, crowd_.hash[block.first]);
+    constexpr int ticks_a_key = 4;
+    const std::int64_t key_tick = motion::due_tick(due, ticks_a_key, crowd_.hash[block.first]);
+    std::int64_t& known = blocks_[seen.block].key_tick;
+    if (key_tick != known) {
+        for (std::size_t person = block.first; person < block.first + block.count; ++person) {
+            const std::size_t character = crowd_.character[person];
+            const motion::PoseTable& poses = *figures_[character].poses;
+            const scene::Action action = acts_.at(person, cast_[character], poses, key_tick);
+            const auto pose = static_cast<std::size_t>(poses.pose_at(action.clip, action.clip_tick));
+            far_keys_[person] = kinds_[character].keys.of_pose[pose];
+        }
+        known = key_tick;
+    }
+    seen.work = {};
+    seen.work[sfsm::WorkKind::motion_update] = due > last_tick ? seen.visible : 0;
+    seen.slowed = period > 1;
+    seen.simplified = true;
+    frame_.far_blocks[seen.first_drawn] = {seen.block, depth, key_tick};
+}
+
 void Selector::sum_up() {
     frame_.work = around_.work;
     bool is_slowed = false, is_simplified = false;
     for (const Seen& seen : seen_) {
         frame_.work += seen.work;
+        frame_.work[sfsm::WorkKind::person] += seen.visible;
         is_slowed |= seen.slowed;
         is_simplified |= seen.simplified;
     }
-    frame_.work[sfsm::WorkKind::person] += static_cast<std::int64_t>(frame_.people.size());
     frame_.state = is_simplified ? sfsm::State::points : is_slowed ? sfsm::State::slowed : sfsm::State::original;
 }
 
@@ -294,8 +353,10 @@ float Selector::demand_at_unit_splat(std::size_t person, float depth) const {
     return options_.density * figures_[character].poses->area * pixels * pixels;
 }
 
-float Selector::demand_of(std::size_t character, float scale_square, float pixels_per_metre) const {
-    return options_.density * figures_[character].poses->area * scale_square * pixels_per_metre * pixels_per_metre;
+float Selector::mean_demand_of(const Group& group) const {
+    const float pixels = view_.pixels_per_metre(std::max(view_.depth(view_.relative(group.middle)), near_plane));
+    return options_.density * figures_[group.character].poses->area * kinds_[group.character].mean_square * pixels *
+           pixels;
 }
 
 // Where the person is now decides whether they are seen and how often they move; both change little in a period.
@@ -321,7 +382,7 @@ Person Selector::choose(std::size_t person, float depth, const sfsm::Decision& d
     seen.work[sfsm::WorkKind::motion_update] += due > last_tick;
     seen.slowed |= period > 1;
     seen.simplified |= !options_.way->representations[representation].is_mesh;
-    return {{spot.position, scale_of(person), spot.turn.sin, spot.turn.cos, crowd_.palette[person]},
+    return {{spot.position, scale_of(person), spot.turn, crowd_.palette[person]},
             static_cast<std::uint32_t>(character),
             representation,
             level.first,

@@ -9,6 +9,7 @@
 
 #include "figures/choices.h"
 #include "figures/figure.h"
+#include "figures/splats.h"
 #include "motion/schedule.h"
 #include "render/forecaster.h"
 #include "render/frame.h"
@@ -55,13 +56,15 @@ public:
 private:
     // A block that may show.
     struct Seen {
-        std::uint32_t block = 0;        // into Crowd::blocks
-        bool inside = false;            // no need to cull its people one by one
-        bool whole = false;             // all of it shows, and so small that it is surveyed as one
-        float range = 0;                // [m] view depth of its farthest visible person; 0: nobody is
-        std::uint32_t visible = 0;      // people
-        std::uint32_t hidden = 0;       // by the structure
-        std::uint32_t first_drawn = 0;  // into Frame::people
+        std::uint32_t block = 0;                        // into Crowd::blocks
+        bool inside = false;                            // no need to cull its people one by one
+        bool small = false;                             // so small that its people are priced, and may be drawn, as one
+        bool is_far = false;                            // they are drawn so
+        float range = 0;                                // [m] view depth of its farthest visible person; 0: nobody is
+        bool whole() const { return small && inside; }  // all of its people show
+        std::uint32_t visible = 0;                      // people
+        std::uint32_t hidden = 0;                       // by the structure
+        std::uint32_t first_drawn = 0;  // into Frame::people; of one that is far, into Frame::far_blocks
         // Of its visible people together, as they were chosen last.
         sfsm::Work work;
         bool slowed = false, simplified = false;
@@ -70,6 +73,7 @@ private:
     struct Kind {
         figures::Choices choices;
         std::uint32_t first_batch = 0;  // choice by choice, in each a number a pose
+        figures::SplatKeys keys{};
         // A ball around the character in every pose, on the axis that it turns about [model units].
         glm::vec3 center{0.0f};
         float radius = 0;
@@ -83,16 +87,16 @@ private:
         std::uint32_t people = 0;
         glm::vec3 middle{0.0f};  // [m] world: mean of theirs
     };
-    enum class Look : std::uint8_t { outside, hidden, partly, inside, whole };
+    enum class Look : std::uint8_t { outside, hidden, partly, inside };
     // Of one of Crowd::blocks.
     struct Block {
         std::uint32_t first_group = 0, groups = 0;
         float reach = 0, tallest = 0;  // [m] the largest radius, and height, of its people
         bool stays = true;             // nobody in it follows a path
-        Look look{};                   // in the view that is surveyed
-    };
-    struct Turn {
-        std::int16_t sin = 0, cos = 0;  // snorm, of a yaw
+        // In the view that is surveyed:
+        Look look{};
+        bool small = false;
+        std::int64_t key_tick = -1;  // that its people's keys are of; < 0: of none yet
     };
     struct Spot {
         glm::vec3 position;  // [m] camera-relative, of the model's origin
@@ -108,9 +112,13 @@ private:
     void find_visible(Seen& seen);
     void find_range();
     void forecast();
-    std::span<const Group> groups_of(const Seen& seen) const;  // that is surveyed as one; else none
+    void forecast_as_one(const Seen& seen);
+    std::span<const Group> groups_of(const Seen& seen) const;
+    float mean_demand_of(const Group& group) const;  // at S = 1 px
+    void find_far_blocks(const sfsm::Decision& decision);
     void make_room();
     void choose(Seen& seen, const sfsm::Decision& decision, std::int64_t last_tick);
+    void choose_as_one(Seen& seen, const sfsm::Decision& decision, std::int64_t last_tick);
     Person choose(std::size_t person, float depth, const sfsm::Decision& decision, std::int64_t last_tick, Seen& seen);
     float scale_of(std::size_t person) const;  // [m / model unit]
     float demand_at_unit_splat(std::size_t person, float depth) const;
@@ -118,7 +126,6 @@ private:
     Spot spot_of(std::size_t person, std::int64_t tick) const;
     glm::vec3 middle_of(std::size_t person) const;  // [m] camera-relative, of their ball
     float depth_of(std::size_t person) const;       // [m] of that, at least the near plane
-    float demand_of(std::size_t character, float scale_square, float pixels_per_metre) const;
     void sum_up();
     template <typename Visit>
     void for_each_visible(const Seen& seen, Visit visit) const;  // gets person and view depth
@@ -144,6 +151,7 @@ private:
     Forecaster forecaster_;
     Survey survey_;
 
+    std::vector<std::uint8_t> far_keys_;  // Frame::far_people's
     Frame frame_;
 };
 

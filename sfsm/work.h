@@ -12,7 +12,7 @@
 namespace sfsm {
 
 // A new kind is a name here and a row of work_table. Append it: old traces know kinds by their place.
-enum class WorkKind : int { person, triangle, point, motion_update, structure_triangle, pixel };
+enum class WorkKind : int { person, triangle, point, motion_update, structure_triangle, pixel, single };
 
 // What a kind's count depends on.
 enum class WorkAxis : int {
@@ -52,7 +52,7 @@ inline constexpr auto work_table = std::to_array<WorkEntry>({
      "visible",
      "people drawn",
      WorkAxis::frame,
-     {{/* gl */ {50, 1, 0, 50, 1}, /* native */ {10, 1, 0, 10, 1}}}},
+     {{/* gl */ {2, 1, 0, 2, 1}, /* native */ {1, 1, 0, 1, 1}}}},
     {WorkKind::triangle,
      "triangle",
      "triangles",
@@ -83,6 +83,12 @@ inline constexpr auto work_table = std::to_array<WorkEntry>({
      "pixels of the background that were painted",
      WorkAxis::frame,
      {{/* gl */ {0.075, 1, 0, 0.075, 1}, /* native */ {0.16, 1, 0, 0.16, 1}}}},
+    {WorkKind::single,
+     "single person",
+     "singles",
+     "people who are drawn one by one, not block by block",
+     WorkAxis::shape,
+     {{/* gl */ {48, 1, 0, 48, 1}, /* native */ {9, 1, 0, 9, 1}}}},
 });
 
 inline constexpr std::size_t work_kinds = work_table.size();

@@ -16,9 +16,15 @@ using mat4 = glm::mat4;
 // What C++ computes too, many pixels at once (render/native/glsl.h), is written with `real` for a pixel's own numbers,
 // `select` for its choices, and `somewhere` for leaving out what makes no difference to any: here nothing is left out.
 #define real float
-real select(bool condition, real yes, real no) { return condition ? yes : no; }
-vec2 select(bool condition, vec2 yes, vec2 no) { return condition ? yes : no; }
-bool somewhere(bool condition) { return true; }
+real select(bool condition, real yes, real no) {
+    return condition ? yes : no;
+}
+vec2 select(bool condition, vec2 yes, vec2 no) {
+    return condition ? yes : no;
+}
+bool somewhere(bool condition) {
+    return true;
+}
 #define CONSTANT const int
 #define BLOCK_BEGIN(name, slot) layout(std140, binding = slot) uniform name##Block {
 #define BLOCK_END(name) \
@@ -43,6 +49,18 @@ CONSTANT attribute_palette = 6;    // slot_vectors of uint 32 x 4: sRGB of slots
 CONSTANT attribute_uv = attribute_palette + slot_vectors;
 CONSTANT attribute_shares = attribute_palette + slot_vectors;
 
+// Vertex attributes of very far people, who stay where they are.
+CONSTANT attribute_far_center = 0;     // world position of the middle [m]; side of a square as large as the surface [m]
+CONSTANT attribute_far_turn = 1;       // snorm 16 x 2: sin, cos of the yaw
+CONSTANT attribute_far_character = 2;  // uint 8
+CONSTANT attribute_far_key = 3;        // uint 8
+CONSTANT attribute_far_palette = 4;    // slot_count of unorm 8 x 4: sRGB of slots 1 to slot_count
+
+// The grid of directions that they are looked at from (render/native/far_looks.h).
+CONSTANT far_rings = 9;
+CONSTANT far_nodes = 16;
+CONSTANT far_suns = 8;
+
 // Vertex attributes of the structure.
 CONSTANT attribute_static_position = 0;
 CONSTANT attribute_static_normal = 1;
@@ -51,6 +69,7 @@ CONSTANT attribute_static_color = 2;  // alpha: scene::Surface
 CONSTANT look_slot_bits = 3;
 CONSTANT no_layer = 31;
 CONSTANT texture_unit_layers = 0;
+CONSTANT texture_unit_looks = 1;
 
 // Once a frame.
 BLOCK_BEGIN(Frame, 0)

@@ -42,7 +42,7 @@ VertexArray make_person_array(const Buffer& vertices, const Buffer& instances, E
     add_float(a, attribute_color, 3, GL_UNSIGNED_BYTE, true, offsetof(BakedVertex, red), vertex_binding);
     add_integer(a, attribute_look, 1, GL_UNSIGNED_BYTE, offsetof(BakedVertex, look), vertex_binding);
     add_float(a, attribute_placement, 4, GL_FLOAT, false, offsetof(Instance, position), instance_binding);
-    add_float(a, attribute_turn, 2, GL_SHORT, true, offsetof(Instance, sin_yaw), instance_binding);
+    add_float(a, attribute_turn, 2, GL_SHORT, true, offsetof(Instance, turn), instance_binding);
     for (int i = 0; i < slot_vectors; ++i)
         add_integer(a, attribute_palette + i, std::min(4, slot_count - 4 * i), GL_UNSIGNED_INT,
                     offsetof(Instance, palette) + i * sizeof(glm::uvec4), instance_binding);

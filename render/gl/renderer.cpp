@@ -55,6 +55,7 @@ Renderer::Renderer(const scene::StaticMesh& structure, const scene::Ground& grou
                    std::span<const figures::Figure> figures, int width, int height)
     : backdrop_(structure, ground),
       drawers_(make_figure_drawers()),
+      far_(figures, light),
       frame_block_(Buffer::create()),
       instances_(Buffer::create()),
       commands_(Buffer::create()),
@@ -111,6 +112,7 @@ void Renderer::draw(const Frame& frame) {
     glClearNamedFramebufferfv(target_.name(), GL_DEPTH, 0, &farthest);
 
     draw_people();
+    far_.draw(frame);
     backdrop_.draw(frame.view);
 }
 

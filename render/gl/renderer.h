@@ -13,6 +13,7 @@
 #include "render/gl/backdrop.h"
 #include "render/gl/figure_drawer.h"
 #include "render/gl/objects.h"
+#include "render/gl/splats.h"
 #include "render/native/occluder.h"
 #include "render/renderer.h"
 #include "scene/ground.h"
@@ -23,8 +24,8 @@ namespace render::gl {
 
 class Renderer final : public render::Renderer {
 public:
-    // Needs a current OpenGL 4.5 context. `figures` in the order of Crowd::character; what they point at is needed only
-    // here. width, height >= 1. Throws std::runtime_error when the driver refuses.
+    // Needs a current OpenGL 4.5 context. `figures` in the order of Crowd::character; what they point at must outlive
+    // it. width, height >= 1. Throws std::runtime_error when the driver refuses.
     Renderer(const scene::StaticMesh& structure, const scene::Ground& ground, const scene::Light& light,
              std::span<const figures::Figure> figures, int width, int height);
 
@@ -56,7 +57,8 @@ private:
     Backdrop backdrop_;
     std::optional<native::Occluder> occluder_;
     std::vector<std::unique_ptr<FigureDrawer>> drawers_;  // by representation
-    std::vector<Buffer> figure_blocks_;                   // by character
+    FarDrawer far_;
+    std::vector<Buffer> figure_blocks_;  // by character
     Buffer frame_block_, instances_, commands_;
     scene::Ground ground_;
     scene::Light light_;

@@ -21,6 +21,13 @@ inline Span pixels_of(int cell, float side) {
             static_cast<int>(std::ceil((middle + 1.0f) * side - 0.5f))};
 }
 
+// All that take from some cells.
+inline Rect pixels_of(const Rect& cells, float side) {
+    if (side == 1.0f || cells.empty()) return cells;
+    return {pixels_of(cells.x0, side).first, pixels_of(cells.y0, side).first, pixels_of(cells.x1 - 1, side).end,
+            pixels_of(cells.y1 - 1, side).end};
+}
+
 struct CellGrid {
     Tile tile;
     float side = 1.0f;  // [px] >= 1

@@ -217,12 +217,12 @@ void CoverTile::find_columns() {
     }
 }
 
-void CoverTile::lay(const SplatPerson& person, const Patch& patch, Layers layers) {
+void CoverTile::lay(const InDepth& people, const Patch& patch, Layers layers) {
     if (!has_limits_) limits_.find(grid_, *behind_, near_);
     has_limits_ = true;
     const CellPlane<float>* behind_near =
         layers == Layers::behind_near && !grid_.is_coarse() ? &limits_.behind_near() : nullptr;
-    cells_.lay(person, patch,
+    cells_.lay(people, patch,
                {layers == Layers::before_near ? &limits_.before_near() : &limits_.backdrop(), behind_near});
 }
 

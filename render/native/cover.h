@@ -40,7 +40,7 @@ public:
     Rect open_part(const Rect& cells) const { return cells_.open_part(cells); }
 
     // Lays a patch behind what is there, where it is nearer than the backdrop, and leaves it all 0.
-    void lay(const SplatPerson& person, const Patch& patch, Layers layers);
+    void lay(const InDepth& people, const Patch& patch, Layers layers);
     // Lays the near layer behind what is there, once.
     void lay_near();
 

@@ -92,13 +92,13 @@ Floats last_of(Vector v) {
     return hn::ConvertTo(floats, hn::BitCast(ints, hn::TruncateTo(counts, lane)));
 }
 
-// One person's depths.
+// The depths of a patch.
 class Depths {
 public:
-    explicit Depths(const SplatPerson& person)
-        : middle_(hn::Set(floats, person.depth)),
-          reach_(hn::Set(floats, person.reach)),
-          steps_(hn::Set(floats, 32767.0f / person.reach)) {}
+    explicit Depths(const InDepth& people)
+        : middle_(hn::Set(floats, people.depth)),
+          reach_(hn::Set(floats, people.reach)),
+          steps_(hn::Set(floats, 32767.0f / people.reach)) {}
 
     // How far back a depth [m] of each cell is, in all four lanes: in the reach from the middle, 32767 = 1.
     Vector back_of(const float* depths) const {
@@ -121,7 +121,7 @@ private:
 
 // Some of a row's cells, and what they are laid into.
 template <bool keeps_depths>
-void lay_cells(const SplatPerson& person, const Depths& depths, std::int16_t* cell, const CoverPlanes& planes,
+void lay_cells(const InDepth& people, const Depths& depths, std::int16_t* cell, const CoverPlanes& planes,
                std::ptrdiff_t at) {
     const auto a = hn::BitCast(words, hn::Load(cells, cell));
     const auto b = hn::BitCast(words, hn::Load(cells, cell + 4 * step));
@@ -139,9 +139,9 @@ void lay_cells(const SplatPerson& person, const Depths& depths, std::int16_t* ce
     auto* flock = reinterpret_cast<std::int16_t*>(planes.flock + at);
     const auto there = hn::LoadU(cells, to), others = hn::LoadU(cells, flock);
     const auto open = hn::Max(hn::Sub(all(cover_full), spread<3>(there)), hn::Zero(cells));
-    const auto depth = all(person.depth_code);
+    const auto depth = all(people.depth_code);
     const auto apart = hn::Sub(depth, spread<1>(others));
-    const auto beside = hn::And(hn::Gt(apart, all(-1)), hn::Lt(apart, all(person.thickness)));
+    const auto beside = hn::And(hn::Gt(apart, all(-1)), hn::Lt(apart, all(people.thickness)));
     const auto before = hn::IfThenElse(beside, spread<0>(others), open);
     const auto is_before = [&](const float* limits) HWY_ATTR {
         return hn::Lt(back, hn::MulFixedPoint15(share, depths.back_of(limits + at)));
@@ -160,15 +160,15 @@ void lay_cells(const SplatPerson& person, const Depths& depths, std::int16_t* ce
 }
 
 template <bool keeps_depths>
-void lay_rows(const SplatPerson& person, const Patch& patch, const CoverPlanes& planes) {
-    const Depths depths(person);
+void lay_rows(const InDepth& people, const Patch& patch, const CoverPlanes& planes) {
+    const Depths depths(people);
     for (int y = 0; y < patch.height; ++y) {
         const std::ptrdiff_t row = std::ptrdiff_t{CellPlane<Cover>::stride} * y;
         for (std::uint64_t left = patch.used[y]; left != 0; left &= left - 1) {
             const int first = group_cells * std::countr_zero(left);
             std::int16_t* cell = patch.cells + std::ptrdiff_t{8} * (patch.stride * y + first);
             for (int i = 0; i < group_cells; i += step)
-                lay_cells<keeps_depths>(person, depths, cell + 8 * i, planes, row + first + i);
+                lay_cells<keeps_depths>(people, depths, cell + 8 * i, planes, row + first + i);
         }
         patch.used[y] = 0;
     }
@@ -182,8 +182,8 @@ std::uint64_t OpenGroups(const Cover* cover, int count) {
     return open;
 }
 
-void LayPatch(const SplatPerson& person, const Patch& patch, const CoverPlanes& planes) {
-    planes.nearness ? lay_rows<true>(person, patch, planes) : lay_rows<false>(person, patch, planes);
+void LayPatch(const InDepth& people, const Patch& patch, const CoverPlanes& planes) {
+    planes.nearness ? lay_rows<true>(people, patch, planes) : lay_rows<false>(people, patch, planes);
 }
 
 }  // namespace render::native::HWY_NAMESPACE
@@ -228,12 +228,12 @@ Rect CoverCells::open_part(const Rect& cells) const {
     return part;
 }
 
-void CoverCells::lay(const SplatPerson& person, const Patch& patch, const Limits& limits) {
+void CoverCells::lay(const InDepth& people, const Patch& patch, const Limits& limits) {
     const int column = patch.x0 - cells_.x0, row = patch.y0 - cells_.y0;
     const CoverPlanes planes{cover_.at(column, row), flocks_.at(column, row),
                              keeps_depths_ ? nearness_.at(column, row) : nullptr, limits.hidden_behind->at(column, row),
                              limits.shown_behind ? limits.shown_behind->at(column, row) : nullptr};
-    HWY_DYNAMIC_DISPATCH(LayPatch)(person, patch, planes);
+    HWY_DYNAMIC_DISPATCH(LayPatch)(people, patch, planes);
     const Rect laid{std::max(patch.x0, cells_.x0), std::max(patch.y0, cells_.y0),
                     std::min(patch.x0 + patch.width, cells_.x1), std::min(patch.y0 + patch.height, cells_.y1)};
     touched_ = touched_.empty() ? laid

@@ -48,7 +48,7 @@ public:
     Rect open_part(const Rect& cells) const;
 
     // Lays a patch behind what is there, between the limits, and leaves it all 0.
-    void lay(const SplatPerson& person, const Patch& patch, const Limits& limits);
+    void lay(const InDepth& people, const Patch& patch, const Limits& limits);
     // Nothing is seen there any more, and nothing was.
     void close(int column, int row) { cover_.at(column, row)->share = cover_full; }
 

@@ -34,7 +34,7 @@ double snorm(std::int16_t value) {
 struct Turn {
     double sin, cos;
 
-    explicit Turn(const Instance& instance) : sin(snorm(instance.sin_yaw)), cos(snorm(instance.cos_yaw)) {}
+    explicit Turn(const Instance& instance) : sin(snorm(instance.turn.sin_yaw)), cos(snorm(instance.turn.cos_yaw)) {}
     glm::dvec3 operator()(const glm::dvec3& v) const { return {cos * v.x + sin * v.z, v.y, cos * v.z - sin * v.x}; }
     glm::dvec3 transposed(const glm::dvec3& v) const { return {cos * v.x - sin * v.z, v.y, sin * v.x + cos * v.z}; }
 };

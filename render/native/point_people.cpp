@@ -59,7 +59,8 @@ struct Sight {
         : view(from),
           person(whom),
           model(points),
-          turn{static_cast<float>(whom.instance.sin_yaw) / unit, static_cast<float>(whom.instance.cos_yaw) / unit},
+          turn{static_cast<float>(whom.instance.turn.sin_yaw) / unit,
+               static_cast<float>(whom.instance.turn.cos_yaw) / unit},
           cell(cell_px) {
         constexpr float half_steps = 32768.0f / 65535.0f;
         half = whom.instance.scale * half_steps * box.size();
@@ -107,14 +108,10 @@ void take_points(const Sight& sight, SplatPerson& out) {
 
 // Perspective to the first order in the axes; the kernel does the rest with `nearness`.
 void place(const Sight& sight, SplatPerson& out) {
-    out.depth = sight.depth;
-    out.reach = sight.reach;
-    out.nearness = fixed(sight.reach / sight.depth);
-    constexpr float codes_per_metre = 16.0f;  // they repeat after 4 km, where nobody is a body's depth apart
-    out.depth_code = static_cast<std::int16_t>(static_cast<std::int64_t>(sight.depth * codes_per_metre));
     // About a body's own depth: three quarters of the side of a square as large as its silhouette.
     const float side = sight.person.instance.scale * std::sqrt(0.25f * sight.model.area());
-    out.thickness = static_cast<std::int16_t>(std::min(0.75f * side * codes_per_metre, unit));
+    static_cast<InDepth&>(out) = in_depth(sight.depth, sight.reach, 0.75f * side);
+    out.nearness = fixed(sight.reach / sight.depth);
     const View& view = sight.view;
     const glm::vec2 from_center = sight.from_center();
     for (int axis = 0; axis < 3; ++axis) {
@@ -218,8 +215,7 @@ PointPeople::PointPeople(std::span<const figures::Figure> figures, const scene::
 }
 
 void PointPeople::prepare(const View& view, double splat_size, std::span<const Person* const> people) {
-    for (const Person* person : people)
-        if (!kinds_[person->character]) make_kind(person->character);
+    for (const Person* person : people) model(person->character);
     cell_ = cell_of(static_cast<float>(splat_size));
     people_.resize(people.size());
     bounds_.resize(people.size());
@@ -228,20 +224,24 @@ void PointPeople::prepare(const View& view, double splat_size, std::span<const P
             constexpr std::size_t ahead = 8;  // they lie anywhere
             if (i + ahead < range.end()) prefetch_all(*people[i + ahead]);
             people_[i] = ready(view, *people[i], cell_);
-            bounds_[i] = bounds_of(people_[i]);
+            bounds_[i] = pixels_of(people_[i].cells(), cell_);
         }
     });
+}
+
+const SplatModel& PointPeople::model(std::uint32_t character) {
+    if (!kinds_[character]) make_kind(character);
+    return kinds_[character]->model;
 }
 
 float PointPeople::reach_of(const Person& person) const {
     return person.instance.scale * glm::length(figures_[person.character].poses->box.size());
 }
 
-Rect PointPeople::bounds_of(const SplatPerson& person) const {
-    const Rect cells = person.cells();
-    if (cell_ == 1.0f || cells.empty()) return cells;
-    return {pixels_of(cells.x0, cell_).first, pixels_of(cells.y0, cell_).first, pixels_of(cells.x1 - 1, cell_).end,
-            pixels_of(cells.y1 - 1, cell_).end};
+InDepth in_depth(float depth, float reach, float thickness) {
+    constexpr float codes_per_metre = 16.0f;  // they repeat after 4 km, where nobody is a body's depth apart
+    return {depth, reach, static_cast<std::int16_t>(static_cast<std::int64_t>(depth * codes_per_metre)),
+            static_cast<std::int16_t>(std::min(thickness * codes_per_metre, unit))};
 }
 
 void SplatPerson::prefetch() const {
@@ -282,8 +282,8 @@ Gains::Trial PointPeople::draw_alone(std::uint32_t character, float cells, float
     person.count = static_cast<std::uint32_t>(std::ceil(points));
     person.last_share = points - static_cast<float>(person.count - 1);
     person.instance.scale = 1.0f;
-    person.instance.sin_yaw = fixed(std::sin(yaw));
-    person.instance.cos_yaw = fixed(std::cos(yaw));
+    person.instance.turn.sin_yaw = fixed(std::sin(yaw));
+    person.instance.turn.cos_yaw = fixed(std::cos(yaw));
     View view = make_view(camera, side, side);
     person.instance.position = view.relative(glm::vec3(0.0f));
     // A first look tells how large the silhouette is; the field of view follows.

@@ -22,6 +22,8 @@ public:
     // Of one frame; `splat_size` S > 0 [px]. Parallel.
     void prepare(const View& view, double splat_size, std::span<const Person* const> people);
 
+    // Of a character; made now, if it isn't yet.
+    const SplatModel& model(std::uint32_t character);
     float cell() const { return cell_; }  // [px] the side of everybody's cells
     std::span<const SplatPerson> people() const { return people_; }
     std::span<const Rect> bounds() const { return bounds_; }  // [px] that each of them may touch
@@ -39,7 +41,6 @@ private:
     void make_kind(std::uint32_t character);
     Gains::Trial draw_alone(std::uint32_t character, float cells, float points, int trial, PatchRoom& room) const;
     SplatPerson ready(const View& view, const Person& person, float cell) const;
-    Rect bounds_of(const SplatPerson& person) const;
 
     std::vector<figures::Figure> figures_;
     std::vector<std::unique_ptr<Kind>> kinds_;  // by character; null: not needed yet

@@ -29,7 +29,7 @@ void for_each_tile(std::size_t count, Work work) {
 
 Renderer::Renderer(const scene::StaticMesh& structure, const scene::Ground& ground, const scene::Light& light,
                    std::span<const figures::Figure> figures, int width, int height)
-    : backdrop_(structure, ground, light), triangles_(figures, light), points_(figures, light) {
+    : backdrop_(structure, ground, light), triangles_(figures, light), points_(figures, light), far_(figures, light) {
     resize(width, height);
 }
 
@@ -66,7 +66,8 @@ Surroundings Renderer::begin(const View& view) {
 bool Renderer::is_drawn_already(const Frame& frame) const {
     static_assert(sizeof(Person) == sizeof(Instance) + 32);  // nothing in it but what is compared
     return has_picture_ && frame.splat_size == drawn_splat_size_ && frame.people.size() == drawn_.size() &&
-           std::memcmp(frame.people.data(), drawn_.data(), drawn_.size() * sizeof(Person)) == 0;
+           std::memcmp(frame.people.data(), drawn_.data(), drawn_.size() * sizeof(Person)) == 0 &&
+           frame.far_blocks == drawn_far_;
 }
 
 void Renderer::draw(const Frame& frame) {
@@ -74,9 +75,11 @@ void Renderer::draw(const Frame& frame) {
     part_people(frame);
     triangles_.prepare(frame.view, near_people_);
     points_.prepare(frame.view, frame.splat_size, point_people_);
+    prepare_far(frame);
     fill_lists();
     for_each_tile(grid_.count(), [&](std::size_t tile) { draw_tile(tile); });
     drawn_ = frame.people;
+    drawn_far_ = frame.far_blocks;
     drawn_splat_size_ = frame.splat_size;
     has_picture_ = true;
 }
@@ -91,6 +94,16 @@ void Renderer::part_people(const Frame& frame) {
     }
     sort_by_depth(near_people_);
     sort_by_depth(point_people_);
+}
+
+void Renderer::prepare_far(const Frame& frame) {
+    if (!frame.far_blocks.empty() && !far_.knows()) {
+        std::vector<const SplatModel*> models;
+        for (std::size_t character = 0; character < far_.characters(); ++character)
+            models.push_back(&points_.model(static_cast<std::uint32_t>(character)));
+        far_.learn(models, *frame.far_people.crowd);
+    }
+    far_.prepare(frame, points_.cell());
 }
 
 // Stable: a counting sort in two passes over the bits of the depth, which rise with it.
@@ -113,6 +126,7 @@ void Renderer::sort_by_depth(std::vector<const Person*>& people) {
 void Renderer::fill_lists() {
     near_lists_.fill(grid_, triangles_.bounds());
     point_lists_.fill(grid_, points_.bounds());
+    far_lists_.fill(grid_, far_.bounds());
 }
 
 void Renderer::draw_tile(std::size_t index) {
@@ -120,7 +134,8 @@ void Renderer::draw_tile(std::size_t index) {
     std::span<const std::uint32_t> others = point_lists_.of(index);
     Easel& easel = easels_.local();
     const float far_end = draw_near(index, easel);  // 0: nobody is near
-    if (others.empty() && far_end == 0) return show_backdrop(tile);
+    const std::span<const std::uint32_t> far = far_lists_.of(index);
+    if (others.empty() && far.empty() && far_end == 0) return show_backdrop(tile);
     easel.cover.begin(tile, behind_, points_.cell(), far_end > 0 ? &easel.near : nullptr);
     if (far_end > 0) {
         // Who may be in front of somebody near comes before them and, for what is behind, once more after them.
@@ -133,13 +148,27 @@ void Renderer::draw_tile(std::size_t index) {
             draw_point_person(points_.people()[i], easel, Layers::behind_near);
         others = others.subspan(mixed);
     }
-    for (std::size_t i = 0; i < others.size(); ++i) {
-        constexpr std::size_t soon = 6, very_soon = 2;
-        if (i + soon < others.size()) points_.people()[others[i + soon]].prefetch();
-        if (i + very_soon < others.size()) points_.people()[others[i + very_soon]].prefetch_points();
-        draw_point_person(points_.people()[others[i]], easel, Layers::all);
-    }
+    draw_others(others, far, easel);
     easel.cover.resolve(picture_);
+}
+
+// By depth.
+void Renderer::draw_others(std::span<const std::uint32_t> people, std::span<const std::uint32_t> far,
+                           Easel& easel) const {
+    const auto draw_block = [&] {
+        if (far.size() > 1) far_.prefetch(far_.blocks()[far[1]]);
+        draw_far_block(far_.blocks()[far.front()], easel);
+        far = far.subspan(1);
+    };
+    for (std::size_t i = 0; i < people.size(); ++i) {
+        constexpr std::size_t soon = 6, very_soon = 2;
+        if (i + soon < people.size()) points_.people()[people[i + soon]].prefetch();
+        if (i + very_soon < people.size()) points_.people()[people[i + very_soon]].prefetch_points();
+        const SplatPerson& person = points_.people()[people[i]];
+        while (!far.empty() && far_.blocks()[far.front()].depth < person.depth) draw_block();
+        draw_point_person(person, easel, Layers::all);
+    }
+    while (!far.empty()) draw_block();
 }
 
 void Renderer::show_backdrop(const Tile& tile) {
@@ -162,15 +191,28 @@ float Renderer::draw_near(std::size_t tile, Easel& easel) const {
 }
 
 void Renderer::draw_point_person(const SplatPerson& person, Easel& easel, Layers layers) const {
-    const Rect open = easel.cover.open_part(person.cells());
-    if (open.empty()) return;
-    // A cell gets from points up to a cell before it, and those share it with the one after it.
-    const int x0 = std::max<int>(person.x0, open.x0 - 1), y0 = std::max<int>(person.y0, open.y0 - 1);
-    const int width = std::min<int>(person.x1, open.x1 + 1) - x0, height = std::min<int>(person.y1, open.y1 + 1) - y0;
-    if (width < 2 || height < 2) return;
-    const Patch patch = easel.room.patch(x0, y0, width, height);
+    const Patch patch = patch_for(person.cells(), easel);
+    if (!patch.cells) return;
     splat(person, points_.light(), patch);
     easel.cover.lay(person, patch, layers);
+}
+
+void Renderer::draw_far_block(const FarBlockOnScreen& block, Easel& easel) const {
+    const Patch patch = patch_for(block.cells(), easel);
+    if (!patch.cells) return;
+    far_.splat(block, patch);
+    easel.cover.lay(block, patch, Layers::all);
+}
+
+// For what of these cells can be seen; without cells if there is none.
+Patch Renderer::patch_for(const Rect& cells, Easel& easel) {
+    const Rect open = easel.cover.open_part(cells);
+    if (open.empty()) return {};
+    // A cell gets from points up to a cell before it, and those share it with the one after it.
+    const int x0 = std::max(cells.x0, open.x0 - 1), y0 = std::max(cells.y0, open.y0 - 1);
+    const int width = std::min(cells.x1, open.x1 + 1) - x0, height = std::min(cells.y1, open.y1 + 1) - y0;
+    if (width < 2 || height < 2) return {};
+    return easel.room.patch(x0, y0, width, height);
 }
 
 Image Renderer::read_image() const {

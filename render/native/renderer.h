@@ -14,6 +14,7 @@
 #include "figures/figure.h"
 #include "render/native/backdrop.h"
 #include "render/native/cover.h"
+#include "render/native/far_people.h"
 #include "render/native/near_layer.h"
 #include "render/native/picture.h"
 #include "render/native/point_people.h"
@@ -53,16 +54,21 @@ private:
 
     bool is_drawn_already(const Frame& frame) const;
     void part_people(const Frame& frame);
+    void prepare_far(const Frame& frame);
     void sort_by_depth(std::vector<const Person*>& people);
     void fill_lists();
     void draw_tile(std::size_t index);
     void show_backdrop(const Tile& tile);
     float draw_near(std::size_t tile, Easel& easel) const;
+    static Patch patch_for(const Rect& cells, Easel& easel);
+    void draw_others(std::span<const std::uint32_t> people, std::span<const std::uint32_t> far, Easel& easel) const;
+    void draw_far_block(const FarBlockOnScreen& block, Easel& easel) const;
     void draw_point_person(const SplatPerson& person, Easel& easel, Layers layers) const;
 
     Backdrop backdrop_;
     TrianglePeople triangles_;
     PointPeople points_;
+    FarCrowd far_;
     int width_ = 0, height_ = 0;
     TileGrid grid_;
     BackdropPicture behind_;
@@ -75,9 +81,10 @@ private:
     double drawn_splat_size_ = 0;
     bool has_picture_ = false;  // of view_ and drawn_
 
+    std::vector<FarBlock> drawn_far_;
     std::vector<const Person*> near_people_, point_people_, unsorted_;
     std::vector<std::uint32_t> counts_;  // of the sort
-    TileLists near_lists_, point_lists_;
+    TileLists near_lists_, point_lists_, far_lists_;
     tbb::enumerable_thread_specific<Easel> easels_;
 };
 

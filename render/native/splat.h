@@ -25,8 +25,16 @@ inline constexpr std::int16_t cell_full = 8192;  // a cell that is covered once;
 // Sums over so few points depend on which they are: they are made to cover what the silhouette does, one by one.
 inline constexpr int longest_summed_prefix = 512;
 
+// Where that is in depth which a patch holds.
+struct InDepth {
+    float depth, reach;  // [m] view depth of the middle; how far anything may be from it
+    // The depth again, and how deep a body is: who is no farther apart than this can't be in front of one another.
+    std::int16_t depth_code, thickness;
+};
+InDepth in_depth(float depth, float reach, float thickness);  // [m]
+
 // One person, as their points are drawn. 16-bit fixed point: 32767 = 1 where nothing else is said.
-struct SplatPerson {
+struct SplatPerson : InDepth {
     // Of the pose (splat_model.h).
     const PosedChunk *first_chunk, *other_chunks;
     std::array<std::uint32_t, 4> first_visible;   // of the first chunk
@@ -52,10 +60,7 @@ struct SplatPerson {
     float total;       // [cells] that the points add up to; 0: to what `area_each` gives
     // Of few points also their colours depend on which they are: together they send this light, 1 = white.
     std::array<float, 3> mean_light;
-    float area_each;     // [cells] of a point that faces the eye, with a facet and a share of 1
-    float depth, reach;  // [m] view depth of the middle; how far a point may be from it
-    // The depth again, and how deep a body is: who is no farther apart than this can't be in front of one another.
-    std::int16_t depth_code, thickness;
+    float area_each;              // [cells] of a point that faces the eye, with a facet and a share of 1
     std::int16_t x0, y0, x1, y1;  // [cells] what they may touch
 
     const PosedChunk& chunk(int i) const { return i == 0 ? *first_chunk : other_chunks[i - 1]; }

@@ -248,7 +248,7 @@ void SplatModel::copy_look(std::uint32_t key, int from, int to) {
         std::copy_n(&lights_[lights_of(key, azimuth, from)], light_stride, &lights_[lights_of(key, azimuth, to)]);
 }
 
-std::vector<SplatModel::LitPoint> SplatModel::light_points(std::uint32_t pose) {
+std::vector<SplatModel::LitPoint> SplatModel::light_points(std::uint32_t pose) const {
     std::array<glm::vec3, sun_azimuths> suns;
     for (int azimuth = 0; azimuth < sun_azimuths; ++azimuth) suns[azimuth] = sun_at(azimuth, light_.to_sun);
     std::vector<LitPoint> lit(static_cast<std::size_t>(std::min(points_, lit_points)));
@@ -316,6 +316,13 @@ SplatModel::SlotLights SplatModel::lights(std::uint32_t pose, const Between& bet
     mix(rows, weights, sums);
     SlotLights out;
     for (int value = 0; value < light_values; ++value) out[value / 3][value % 3] = sums[value];
+    return out;
+}
+
+SplatModel::SlotLights SplatModel::lights(std::uint32_t pose, int azimuth, int node) const {
+    const std::uint16_t* row = &lights_[lights_of(key_of_[pose], azimuth, node)];
+    SlotLights out;
+    for (int value = 0; value < light_values; ++value) out[value / 3][value % 3] = row[value] / light_unit;
     return out;
 }
 

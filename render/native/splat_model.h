@@ -80,6 +80,17 @@ public:
     // times their colours, it is the mean light of the silhouette.
     using SlotLights = std::array<glm::vec3, 1 + model::slot_count>;
     SlotLights lights(std::uint32_t pose, const Between& between, glm::vec3 to_sun) const;
+    // The same at a node, from which it is interpolated, and at one of the sun's azimuths.
+    SlotLights lights(std::uint32_t pose, int azimuth, int node) const;
+
+    // What a point sends from either side, for each azimuth of the sun and channel, were it of slot colour white.
+    struct LitPoint {
+        int slot;
+        glm::vec3 facet;
+        std::array<std::array<float, 3 * sun_azimuths>, 2> light;
+    };
+    // Of the first ones of a pose.
+    std::vector<LitPoint> light_points(std::uint32_t pose) const;
 
     float area() const { return area_; }  // [model units^2] that the points stand for together
     bool double_sided() const { return double_sided_; }
@@ -91,13 +102,6 @@ private:
     void choose_keys(const figures::Figure& figure);
     void look_around(const figures::Figure& figure);
     void copy_look(std::uint32_t key, int from, int to);
-    // What a point sends from either side, for each azimuth of the sun and channel, were it of slot colour white.
-    struct LitPoint {
-        int slot;
-        glm::vec3 facet;
-        std::array<std::array<float, 3 * sun_azimuths>, 2> light;
-    };
-    std::vector<LitPoint> light_points(std::uint32_t pose);
     // `shown`: what is seen of each point from there.
     void find_lights(std::uint32_t key, int node, glm::vec3 direction, std::span<const LitPoint> lit,
                      std::span<const float> shown);
@@ -105,6 +109,9 @@ private:
 
     std::size_t look_of(std::uint32_t pose, int node) const {
         return std::size_t{key_of_[pose]} * direction_nodes + node;
+    }
+    const PosedChunk& chunk_of(std::uint32_t pose, int chunk) const {
+        return chunk == 0 ? *first_chunk(pose) : other_chunks(pose)[chunk - 1];
     }
     PosedChunk& chunk_of(std::uint32_t pose, int chunk) {
         return chunk == 0 ? first_chunks_[pose] : other_chunks_[std::size_t{pose} * (chunks_ - 1) + chunk - 1];

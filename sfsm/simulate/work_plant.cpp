@@ -48,7 +48,7 @@ double usable_splat(const Decision& decision) {
 
 Work work_of(const Decision& decision, const View& view) {
     Work work;
-    work[WorkKind::person] = std::llround(view.people);
+    work[WorkKind::person] = work[WorkKind::single] = std::llround(view.people);
     work[WorkKind::motion_update] = std::llround(view.people * updates_each(share_of(decision, view), view));
     if (decision.state == State::points) {
         work[WorkKind::point] = std::llround(view.people * view.points_each / usable_splat(decision));

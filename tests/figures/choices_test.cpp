@@ -9,6 +9,8 @@
 #include <optional>
 #include <set>
 
+#include "figures/splats.h"
+
 namespace {
 
 using figures::Choices;
@@ -22,6 +24,8 @@ struct Character {
     Character(std::size_t triangles, int points) {
         mesh.indices.resize(3 * triangles);
         poses.point_count = points;
+        poses.pose_count = 1;
+        poses.clips = {{}};
     }
     figures::Figure figure() const { return {&mesh, &poses, nullptr}; }
 };
@@ -51,7 +55,8 @@ TEST(Choices, AreTheCheapestThatServe) {
                 double least = std::numeric_limits<double>::infinity();
                 for (const figures::Representation& representation : way.representations)
                     for (const Level& level : representation.levels(character.figure()))
-                        if (demand <= level.reach) least = std::min(least, cost_of(level.work, way));
+                        if (demand <= level.reach && !representation.is_by_block)
+                            least = std::min(least, cost_of(level.work, way));
                 const Level& chosen = choices.all()[choices.at(demand)].level;
                 EXPECT_GE(chosen.reach, demand);
                 EXPECT_EQ(cost_of(chosen.work, way), least) << triangles << " triangles, demand " << demand;
@@ -65,9 +70,10 @@ TEST(Choices, ServeExactlyAsMuchAsTheyReach) {
     const Choices choices(character.figure(), figures::by_opengl());
     for (std::uint32_t i = 0; i < choices.all().size(); ++i) {
         const float reach = choices.all()[i].level.reach;
-        EXPECT_EQ(choices.at(reach), i) << "reach " << reach;
+        const bool is_by_block = figures::by_opengl().representations[choices.all()[i].representation].is_by_block;
+        EXPECT_EQ(is_by_block ? choices.in_block_at(reach) : choices.at(reach), i) << "reach " << reach;
         if (!std::isinf(reach)) {
-            EXPECT_NE(choices.at(std::nextafter(reach, 2 * reach)), i) << "reach " << reach;
+            EXPECT_NE(choices.in_block_at(std::nextafter(reach, 2 * reach)), i) << "reach " << reach;
         }
     }
 }
@@ -93,10 +99,30 @@ TEST(Choices, AreInDrawingOrderAndEachIsOfUse) {
     const Character character(5000, 2500);
     const Choices choices(character.figure(), figures::by_opengl());
     std::set<std::uint32_t> used;
-    for (float demand = 0.5f; demand < 1e5f; demand *= 1.01f) used.insert(choices.at(demand));
+    for (float demand = 0.5f; demand < 1e5f; demand *= 1.01f) {
+        used.insert(choices.at(demand));
+        used.insert(choices.in_block_at(demand));
+    }
     EXPECT_EQ(used.size(), choices.all().size());
     for (std::size_t i = 1; i < choices.all().size(); ++i)
         EXPECT_LE(choices.all()[i - 1].representation, choices.all()[i].representation);
+}
+
+TEST(Choices, OfBlocksAreSplatsWhereOneServes) {
+    const Character character(5000, 2500);
+    for (const figures::Way* way : ways) {
+        const Choices choices(character.figure(), *way);
+        EXPECT_EQ(choices.block_reach(), figures::splat_reach);
+        const auto is_by_block = [&](std::uint32_t choice) {
+            return way->representations[choices.all()[choice].representation].is_by_block;
+        };
+        for (float demand = 0.01f; demand < 1e5f; demand *= 1.07f) {
+            EXPECT_FALSE(is_by_block(choices.at(demand))) << "nobody alone is";
+            EXPECT_EQ(is_by_block(choices.in_block_at(demand)), demand <= figures::splat_reach) << demand;
+        }
+        const Choices without(Character(5000, 0).figure(), *way);
+        EXPECT_EQ(without.in_block_at(0.1f), without.at(0.1f)) << "who has no points has no splat";
+    }
 }
 
 TEST(Representations, LevelsRiseInReachAndInWork) {
@@ -160,6 +186,7 @@ TEST(Part, OfPointsByOnesIsAsManyAsAreAskedFor) {
             EXPECT_LE(part.count, level.count);
             sfsm::Work work;
             work[sfsm::WorkKind::point] = part.count;
+            work[sfsm::WorkKind::single] = 1;
             EXPECT_EQ(part.work, work) << "demand " << demand;
         }
     }

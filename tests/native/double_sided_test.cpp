@@ -102,7 +102,7 @@ private:
         render::Person person{};
         person.instance.position = view.relative(glm::vec3(0));
         person.instance.scale = 1;
-        person.instance.cos_yaw = 32767;
+        person.instance.turn.cos_yaw = 32767;
         person.depth = view.depth(person.instance.position);
         person.last_share = 1;
         person.count = static_cast<std::uint32_t>(points);

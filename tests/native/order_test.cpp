@@ -92,7 +92,7 @@ render::Person person_of(const Who& who, const render::View& view, double splat_
     render::Person person{};
     person.instance.position = glm::vec3(who.aside, -model.poses.box.center().y, origin_depth(who));
     person.instance.scale = 1;
-    person.instance.cos_yaw = -32767;
+    person.instance.turn.cos_yaw = -32767;
     person.character = who.color;
     person.depth = view.depth(person.instance.position);
     person.batch = who.color;

@@ -255,8 +255,8 @@ private:
         render::Person person{};
         person.instance.position = view_.relative(glm::vec3(0));
         person.instance.scale = 1;
-        person.instance.sin_yaw = sine_;
-        person.instance.cos_yaw = cosine_;
+        person.instance.turn.sin_yaw = sine_;
+        person.instance.turn.cos_yaw = cosine_;
         person.instance.palette.colors.fill(glm::u8vec4(255));
         person.representation = 1;
         person.pose = static_cast<std::uint32_t>(pose_);

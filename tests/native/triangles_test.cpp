@@ -86,8 +86,8 @@ render::Person person_at(const glm::vec3& position, float scale = 1, double yaw 
     render::Person person{};
     person.instance.position = position;
     person.instance.scale = scale;
-    person.instance.sin_yaw = static_cast<std::int16_t>(std::lround(32767 * std::sin(yaw)));
-    person.instance.cos_yaw = static_cast<std::int16_t>(std::lround(32767 * std::cos(yaw)));
+    person.instance.turn.sin_yaw = static_cast<std::int16_t>(std::lround(32767 * std::sin(yaw)));
+    person.instance.turn.cos_yaw = static_cast<std::int16_t>(std::lround(32767 * std::cos(yaw)));
     person.instance.palette.colors = {
         {{230, 60, 50, 255}, {40, 200, 70, 255}, {60, 80, 240, 255}, {240, 220, 60, 255}}};
     person.pose = pose;
@@ -131,7 +131,7 @@ struct ExactVertex {
 
 ExactVertex exact_vertex(const Actor& actor, const render::Person& person, const render::View& view, std::uint32_t v) {
     const render::Instance& instance = person.instance;
-    const double sin = instance.sin_yaw / 32767.0, cos = instance.cos_yaw / 32767.0;
+    const double sin = instance.turn.sin_yaw / 32767.0, cos = instance.turn.cos_yaw / 32767.0;
     const auto turned = [&](const glm::dvec3& p) {
         return glm::dvec3(cos * p.x + sin * p.z, p.y, cos * p.z - sin * p.x);
     };

@@ -48,8 +48,8 @@ render::Frame frame_of(std::span<const Person> people, std::span<const Model* co
         render::Instance instance;
         instance.position = glm::vec3(person.origin - view.position);
         instance.scale = static_cast<float>(person.scale);
-        instance.sin_yaw = static_cast<std::int16_t>(std::lround(snorm * std::sin(person.yaw)));
-        instance.cos_yaw = static_cast<std::int16_t>(std::lround(snorm * std::cos(person.yaw)));
+        instance.turn.sin_yaw = static_cast<std::int16_t>(std::lround(snorm * std::sin(person.yaw)));
+        instance.turn.cos_yaw = static_cast<std::int16_t>(std::lround(snorm * std::cos(person.yaw)));
         instance.palette = person.palette;
         const auto of = std::find_if(models.begin(), models.end(),
                                      [&](const Model* model) { return &model->figure == person.figure; });

@@ -274,7 +274,8 @@ TEST(Forecast, LossOfMotionIsTheMeasuredDisplacement) {
     EXPECT_GT(steps.back().loss_px, 0.1);
 }
 
-// Of splats: half a splat for each who is drawn by points, and no more than half of what they cover themselves.
+// Of splats: half a splat for each who is drawn by points, and no more than half of what they cover themselves, which
+// is what they lose in far blocks.
 TEST(Forecast, LossOfSplatsIsHalfASplatOrHalfThePerson) {
     std::vector<glm::vec3> places;
     for (int i = 0; i < 150; ++i)
@@ -289,12 +290,13 @@ TEST(Forecast, LossOfSplatsIsHalfASplatOrHalfThePerson) {
         double lost = 0;
         const Decision decision = step.setting == 0 ? Decision{} : Decision{State::points, 1000, step.setting};
         const render::Frame& selection = selector.select(decision, -1);
-        for (const render::Person& person : selection.people) {
-            if (tests::points_of(person) == 0) continue;
-            const double depth = -person.instance.position.z;
-            const double silhouette = std::sqrt(area / 4) * height / (2 * std::tan(0.45) * depth);
-            lost += std::min(step.setting, silhouette) / 2;
-        }
+        const auto silhouette_at = [&](double z) { return std::sqrt(area / 4) * height / (2 * std::tan(0.45) * -z); };
+        for (const render::Person& person : selection.people)
+            if (tests::points_of(person) > 0)
+                lost += std::min(step.setting, silhouette_at(person.instance.position.z)) / 2;
+        for (const render::FarBlock& block : selection.far_blocks)
+            for (std::uint32_t i = 0; i < row.crowd.blocks[block.block].count; ++i)
+                lost += silhouette_at(row.crowd.position[row.crowd.blocks[block.block].first + i].z) / 2;
         constexpr double bin_width = 0.05;
         const double measured = lost / static_cast<double>(forecast.frame[sfsm::WorkKind::person]);
         EXPECT_NEAR(step.loss_px, measured, bin_width * measured) << "S = " << step.setting;

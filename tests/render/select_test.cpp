@@ -104,6 +104,17 @@ TEST(Selection, NeverDropsSomeoneWhoShows) {
     }
 }
 
+// In blocks that are wholly in view.
+std::int64_t people_far_away(const Frame& frame) {
+    std::int64_t people = 0;
+    for (const render::FarBlock& block : frame.far_blocks) {
+        const scene::CrowdBlock& all = small_scene().crowd.blocks[block.block];
+        EXPECT_EQ(render::overlap(frame.view, all.box), render::Overlap::inside);
+        people += all.count;
+    }
+    return people;
+}
+
 TEST(Selection, WorkIsTheSumOverItsPeople) {
     const Frame selection = select_once(view_of("still"), points_of(2));
     std::int64_t triangles = 0, points = 0;
@@ -112,7 +123,8 @@ TEST(Selection, WorkIsTheSumOverItsPeople) {
         if (tests::points_of(person) == 0)
             triangles += static_cast<std::int64_t>(small_scene().person.mesh.triangle_count());
     }
-    EXPECT_EQ(selection.work[sfsm::WorkKind::person], std::ssize(selection.people));
+    EXPECT_EQ(selection.work[sfsm::WorkKind::person], std::ssize(selection.people) + people_far_away(selection));
+    EXPECT_EQ(selection.work[sfsm::WorkKind::single], std::ssize(selection.people));
     EXPECT_EQ(selection.work[sfsm::WorkKind::triangle], triangles);
     EXPECT_EQ(selection.work[sfsm::WorkKind::point], points);
     EXPECT_GT(points, 0);
@@ -342,10 +354,17 @@ sfsm::Forecast by_person(render::Forecaster& forecaster, const Frame& frame, flo
     return forecaster.finish(options.theta);
 }
 
+figures::Way without_blocks(figures::Way way) {
+    EXPECT_TRUE(way.representations.back().is_by_block);
+    way.representations = way.representations.first(way.representations.size() - 1);
+    return way;
+}
+
 // Blocks are a thirtieth of their distance deep, people's sizes those of the whole crowd: prices differ by a hundredth.
 TEST(Survey, BlocksThatAreFarAreWorthTheirPeople) {
     constexpr double block_error = 0.01;
-    for (const figures::Way* way : {&figures::by_opengl(), &figures::natively()}) {
+    for (const figures::Way* drawing : {&figures::by_opengl(), &figures::natively()}) {
+        const figures::Way one_by_one = without_blocks(*drawing), *way = &one_by_one;
         const render::SelectOptions options{.way = way};
         Selector selector(small_scene().crowd, small_scene().cast, small_scene().figures(), options);
         const auto staleness =
@@ -375,6 +394,83 @@ TEST(Survey, BlocksThatAreFarAreWorthTheirPeople) {
                             5 * block_error * updates(exact.motion[i]))
                     << "D = " << exact.motion[i].setting;
             }
+        }
+    }
+}
+
+// Of blocks that are drawn as one: at each step as many people are drawn one by one as was foreseen, but for blocks
+// that ask for just what one splat serves.
+TEST(Survey, FarBlocksAreForeseenAsTheyAreDrawn) {
+    for (const figures::Way* way : {&figures::by_opengl(), &figures::natively()}) {
+        Selector selector(small_scene().crowd, small_scene().cast, small_scene().figures(), {.way = way});
+        for (const render::View& view : far_views) {
+            const sfsm::Forecast forecast = selector.survey(view, 100).forecast;
+            const std::vector<sfsm::Step> steps(forecast.shapes.begin(), forecast.shapes.end());
+            const auto people = static_cast<double>(forecast.frame[sfsm::WorkKind::person]);
+            const auto singles = [&](double splat_size) {
+                const Frame& frame = selector.select(splat_size > 0 ? points_of(splat_size) : Decision{}, 99);
+                EXPECT_EQ(frame.work[sfsm::WorkKind::person], forecast.frame[sfsm::WorkKind::person]);
+                return static_cast<double>(frame.work[sfsm::WorkKind::single]);
+            };
+            EXPECT_EQ(singles(0), people) << "everybody by oneself";
+            EXPECT_LT(singles(steps.back().setting), 0.05 * people);
+            constexpr double bin = 0.05;  // of demand, and so twice what it is of S
+            for (const sfsm::Step& step : steps) {
+                const auto foreseen = static_cast<double>(step.work[sfsm::WorkKind::single]);
+                EXPECT_LE(foreseen, singles(step.setting * (1 - bin)) * 1.01) << "S = " << step.setting;
+                EXPECT_GE(foreseen, singles(step.setting * (1 + bin)) * 0.99) << "S = " << step.setting;
+            }
+        }
+    }
+}
+
+// What their people do is asked every few ticks only, and so that nothing depends on the frames before.
+TEST(Selection, OfFarBlocksDoesNotDependOnTheFramesBefore) {
+    Selector selector(small_scene().crowd, small_scene().cast, small_scene().figures());
+    const auto keys_at = [](Selector& by, std::int64_t tick) {
+        by.survey(far_views[0], tick);
+        const Frame& frame = by.select(points_of(4, 1e6), tick - 1);
+        EXPECT_FALSE(frame.far_blocks.empty());
+        std::vector<std::pair<render::FarBlock, std::vector<std::uint8_t>>> blocks;
+        for (const render::FarBlock& block : frame.far_blocks) {
+            const scene::CrowdBlock& all = small_scene().crowd.blocks[block.block];
+            const std::uint8_t* first = frame.far_people.keys + all.first;
+            EXPECT_LE(block.tick, tick);
+            EXPECT_GT(block.tick, tick - 4);
+            blocks.emplace_back(block, std::vector<std::uint8_t>(first, first + all.count));
+        }
+        return blocks;
+    };
+    std::set<std::vector<std::uint8_t>> different;
+    for (const std::int64_t tick : {100, 101, 102, 5000, 7, 103, 104, 250'000'000}) {
+        Selector fresh(small_scene().crowd, small_scene().cast, small_scene().figures());
+        const auto keys = keys_at(selector, tick);
+        EXPECT_EQ(keys, keys_at(fresh, tick)) << tick;
+        different.insert(keys.front().second);
+    }
+    EXPECT_GT(different.size(), 3u) << "people move";
+}
+
+// Each key is the one next to the pose that the person has.
+TEST(Selection, KeysOfFarPeopleAreNextToTheirPoses) {
+    const motion::PoseTable& poses = small_scene().poses.front();
+    const figures::SplatKeys keys = figures::splat_keys(poses);
+    ASSERT_EQ(keys.of_pose.size(), static_cast<std::size_t>(poses.pose_count));
+    for (const motion::ClipPoses& clip : poses.clips) {
+        std::vector<int> own;
+        for (const int pose : keys.poses)
+            if (pose >= clip.first_pose && pose < clip.first_pose + clip.pose_count) own.push_back(pose);
+        ASSERT_FALSE(own.empty());
+        const auto apart = [&](int a, int b) {
+            const int steps = std::abs(a - b);
+            return std::min(steps, clip.pose_count - steps);
+        };
+        for (int pose = clip.first_pose; pose < clip.first_pose + clip.pose_count; ++pose) {
+            int least = clip.pose_count;
+            for (const int key : own) least = std::min(least, apart(pose, key));
+            // The last key of a clip may be nearer to its first than a step.
+            const int chosen = keys.poses[keys.of_pose[static_cast<std::size_t>(pose)]];
+            EXPECT_LE(apart(pose, chosen), std::max(least, poses.pose_count / 48 + 1)) << pose;
         }
     }
 }
@@ -509,7 +605,8 @@ TEST(NativeSelection, WorkIsTheSumOverItsPeople) {
             points += drawn;
             if (drawn == 0) triangles += static_cast<std::int64_t>(small_scene().person.mesh.triangle_count());
         }
-        EXPECT_EQ(frame.work[sfsm::WorkKind::person], std::ssize(frame.people));
+        EXPECT_EQ(frame.work[sfsm::WorkKind::person], std::ssize(frame.people) + people_far_away(frame));
+        EXPECT_EQ(frame.work[sfsm::WorkKind::single], std::ssize(frame.people));
         EXPECT_EQ(frame.work[sfsm::WorkKind::triangle], triangles) << "S = " << splat_size;
         EXPECT_EQ(frame.work[sfsm::WorkKind::point], points) << "S = " << splat_size;
         EXPECT_EQ(points > 0, splat_size > 0);

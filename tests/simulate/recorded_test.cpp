@@ -208,7 +208,7 @@ TEST(Recorded, WorkAndDetailAreTheForecastsAtItsSteps) {
             const Decision decision{splat.setting > 0 ? State::points : State::slowed, motion.setting, splat.setting};
             EXPECT_EQ(scenario.plant->work(5, decision),
                       (Work{row.work[WorkKind::person], splat.work[WorkKind::triangle], splat.work[WorkKind::point],
-                            motion.work[WorkKind::motion_update]}));
+                            motion.work[WorkKind::motion_update], 0, 0, splat.work[WorkKind::single]}));
             EXPECT_NEAR(scenario.plant->detail(5, decision), 1 / (1 + motion.loss_px + splat.loss_px), rounding);
         }
     }
