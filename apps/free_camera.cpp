@@ -13,7 +13,7 @@ constexpr double lowest = 0.3, farthest = 1000;     // [m]
 }  // namespace
 
 FreeCamera::FreeCamera(const scene::CameraPose& start) : position_(start.position), fov_y_(start.fov_y) {
-    const glm::dvec3 look = glm::normalize(start.target - start.position);
+    const glm::dvec3 look = start.forward();
     heading_ = std::atan2(look.x, look.z);
     pitch_ = std::asin(std::clamp(look.y, -1.0, 1.0));
 }

@@ -33,7 +33,7 @@ View make_view(const scene::CameraPose& pose, int width, int height) {
     view.width = width;
     view.height = height;
     view.position = pose.position;
-    view.forward = glm::vec3(glm::normalize(pose.target - pose.position));
+    view.forward = glm::vec3(pose.forward());
     // Looking straight up or down leaves no horizon: any heading will do.
     constexpr float nearly_vertical = 0.9999f;
     const glm::vec3 zenith = std::abs(view.forward.y) > nearly_vertical ? glm::vec3(0, 0, -1) : glm::vec3(0, 1, 0);

@@ -22,7 +22,6 @@ constexpr std::size_t max_bytes = 4 << 20, max_keys = 10'000;
 constexpr double max_coordinate = 1e5;        // [m] beyond which nothing of the scene is a pixel
 constexpr double max_time = 1e6;              // [s]
 constexpr double min_fov = 1, max_fov = 170;  // [deg] exclusive
-constexpr double min_distance = 1e-3;         // [m] from position to target
 
 // Says what is wrong at which place of which file.
 struct Reader {
@@ -97,9 +96,8 @@ struct Reader {
         key.time = number(member(value, "time_s", place), place + ".time_s", 0, max_time);
         key.pose.position = point(member(value, "position", place), place + ".position");
         key.pose.target = point(member(value, "target", place), place + ".target");
-        if (glm::distance(key.pose.position, key.pose.target) < min_distance) {
-            fail(place + ".target", quote(value["target"]), "a point at least 1 mm from the position");
-        }
+        if (key.pose.position == key.pose.target)
+            fail(place + ".target", "the position's own " + quote(value["target"]), "another point, to look at");
         const Json& fov = member(value, "fov_deg", place);
         const double angle = number(fov, place + ".fov_deg", min_fov, max_fov);
         if (angle == min_fov || angle == max_fov) fail(place + ".fov_deg", quote(fov), "a number over 1 and below 170");

@@ -41,6 +41,12 @@ std::size_t key_before(const std::vector<CameraKey>& keys, double time) {
 
 }  // namespace
 
+glm::dvec3 CameraPose::forward() const {
+    assert(position != target);
+    const glm::dvec3 look = target - position, size = glm::abs(look);
+    return glm::normalize(look / std::max({size.x, size.y, size.z}));  // the squares of tiny numbers are 0
+}
+
 CameraPose CameraPath::at(double time) const {
     assert(!keys.empty());
     if (keys.size() == 1) return keys.front().pose;
@@ -61,8 +67,7 @@ CameraPose CameraPath::at(double time) const {
     CameraPose pose{blend(&CameraPose::position), blend(&CameraPose::target), blend(&CameraPose::fov_y)};
     pose.fov_y =
         std::clamp(pose.fov_y, std::min(from.pose.fov_y, to.pose.fov_y), std::max(from.pose.fov_y, to.pose.fov_y));
-    constexpr double least_distance = 1e-6;  // [m] nearer targets give no direction
-    if (glm::distance(pose.position, pose.target) < least_distance) pose.target = pose.position + glm::dvec3(0, 0, 1);
+    if (pose.position == pose.target) pose.target += glm::dvec3(0, 0, 1);
     return pose;
 }
 

@@ -11,6 +11,9 @@ struct CameraPose {
     glm::dvec3 position{0.0};          // [m]
     glm::dvec3 target{0.0, 0.0, 1.0};  // [m] looked at; differs from position
     double fov_y = 0.9;                // [rad] vertical, in (0, pi)
+
+    // The unit vector from `position` to `target`, however near they are.
+    glm::dvec3 forward() const;
 };
 
 struct CameraKey {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <numbers>
 
 #include "tests/scene/fake_cast.h"
@@ -104,6 +105,18 @@ TEST(CameraPath, FieldOfViewStaysBetweenItsKeys) {
         EXPECT_GE(path.at(time).fov_y, 0.7);
         EXPECT_LE(path.at(time).fov_y, 1.0);
     }
+}
+
+TEST(CameraPath, ATargetGivesTheDirectionHoweverNear) {
+    const glm::dvec3 look = glm::normalize(glm::dvec3(2, -1, 3));
+    for (const double distance : {1e5, 1.0, 1e-3, 1e-9, 1e-160, 1e-300}) {
+        const scene::CameraPose pose{{0, 0, 0}, distance * look, 1};
+        EXPECT_LT(glm::distance(pose.forward(), look), 1e-12) << distance;
+        const CameraPath moving{{{0, pose}, {1, {{0, 0, 0}, 2 * distance * look, 1}}}};
+        EXPECT_LT(glm::distance(moving.at(0.4).forward(), look), 1e-12) << distance;
+    }
+    const scene::CameraPose least{{0, 0, 0}, {0, std::numeric_limits<double>::denorm_min(), 0}, 1};
+    EXPECT_EQ(least.forward(), glm::dvec3(0, 1, 0));
 }
 
 TEST(CameraPath, LooksSomewhereEvenWhereTargetAndPositionMeet) {
@@ -546,7 +559,7 @@ TEST_F(CameraFile, RefusesBadOnesInOneLineThatNamesFileAndPlace) {
         {keys(key("0", "[0,1]", "[1,1,1]", "50")), "[x, y, z]"},
         {keys(key("0", "[0,1,1e300]", "[1,1,1]", "50")), "keys[0].position"},
         {keys(key("0", "[0,1,null]", "[1,1,1]", "50")), "found null"},
-        {keys(key("0", "[1,1,1]", "[1,1,1]", "50")), "from the position"},
+        {keys(key("0", "[1,1,1]", "[1,1,1]", "50")), "found the position's own [1,1,1], expected another point"},
         {keys(key("0", "[0,1,0]", "[1,1,1]", "1")), "fov_deg: found 1,"},
         {keys(key("0", "[0,1,0]", "[1,1,1]", "170")), "fov_deg: found 170,"},
         {keys(key("0", "[0,1,0]", "[1,1,1]", "-20")), "fov_deg: found -20,"},
@@ -590,8 +603,11 @@ TEST_F(CameraFile, TakesEachNumberUpToItsLimitAndNoFurther) {
     EXPECT_TRUE(accepts(key("0", near, there, "1.01")));
     EXPECT_TRUE(accepts(key("0", near, there, "169.9")));
     EXPECT_FALSE(accepts(key("0", near, there, "170.1")));
-    EXPECT_TRUE(accepts(key("0", "[0,0,0]", "[0,0,0.0011]", "50")));
-    EXPECT_FALSE(accepts(key("0", "[0,0,0]", "[0,0,0.0009]", "50")));
+    for (const std::string distance : {"0.001", "1e-9", "1e-200", "5e-324"})
+        EXPECT_TRUE(accepts(key("0", "[0,0,0]", "[0,0," + distance + "]", "50"))) << distance;
+    EXPECT_TRUE(accepts(key("0", "[100000,0,0]", "[99999.999999999985,0,0]", "50"))) << "one step of a double away";
+    EXPECT_FALSE(accepts(key("0", "[0,0,0]", "[0,0,1e-324]", "50"))) << "is read as 0";
+    EXPECT_FALSE(accepts(key("0", "[0,-0.0,0]", "[0,0,0]", "50")));
     EXPECT_TRUE(accepts(key("0", near, there, "50") + "," + key("1e-3", near, there, "50")));
     EXPECT_FALSE(accepts(key("1", near, there, "50") + "," + key("0.5", near, there, "50")));
 }
