@@ -24,11 +24,14 @@ bool is_software(std::string_view renderer) {
 
 }  // namespace
 
+std::string found_device() {
+    return "OpenGL " + gl_string(GL_VERSION) + " on " + gl_string(GL_RENDERER);
+}
+
 Device read_device() {
     constexpr int least_version = 45;
     if (epoxy_gl_version() < least_version)
-        throw std::runtime_error("OpenGL: found " + gl_string(GL_VERSION) + " on " + gl_string(GL_RENDERER) +
-                                 ", expected 4.5 core or later");
+        throw std::runtime_error("found " + found_device() + ", expected OpenGL 4.5 core or later");
     Device device;
     device.renderer = gl_string(GL_RENDERER);
     device.version = gl_string(GL_VERSION);

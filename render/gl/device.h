@@ -14,4 +14,7 @@ struct Device {
 // Reads the current context. Throws std::runtime_error below OpenGL 4.5.
 Device read_device();
 
+// The version and what it runs on, of the current context, as a message says what was found: "OpenGL 3.3 on a GPU".
+std::string found_device();
+
 }  // namespace render::gl

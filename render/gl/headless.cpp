@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "render/gl/device.h"
+
 namespace render::gl {
 
 namespace {
@@ -48,27 +50,64 @@ std::vector<EGLDisplay> candidate_displays() {
     return displays;
 }
 
-// A current 4.5 core context on `display`, or nothing; then `why` says what was missing.
-std::optional<EGLContext> try_context(EGLDisplay display, std::string& why) {
-    if (!eglInitialize(display, nullptr, nullptr)) {
-        why = "eglInitialize: " + egl_error();
-        return std::nullopt;
+// What a display had in place of what is needed.
+struct Refusal {
+    std::string found;
+    bool names_version = false;
+};
+
+struct Version {
+    EGLint major, minor;
+    bool core;
+};
+constexpr Version needed{4, 5, true};
+
+// Current, or EGL_NO_CONTEXT.
+EGLContext make_context(EGLDisplay display, EGLConfig config, const Version& version) {
+    std::vector<EGLint> wanted = {EGL_CONTEXT_MAJOR_VERSION, version.major, EGL_CONTEXT_MINOR_VERSION, version.minor};
+    if (version.core)
+        wanted.insert(wanted.end(), {EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT});
+    wanted.push_back(EGL_NONE);
+    if (!eglBindAPI(EGL_OPENGL_API)) return EGL_NO_CONTEXT;
+    EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, wanted.data());
+    if (context != EGL_NO_CONTEXT && !eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
+        eglDestroyContext(display, context);
+        context = EGL_NO_CONTEXT;
     }
+    return context;
+}
+
+// After `error`, a needed context's: drivers answer any lower version with the highest that they have.
+Refusal refusal_of(EGLDisplay display, EGLConfig config, const std::string& error) {
+    for (const Version& lower : {Version{3, 2, true}, Version{1, 0, false}}) {
+        const EGLContext context = make_context(display, config, lower);
+        if (context == EGL_NO_CONTEXT) continue;
+        Refusal refusal{found_device(), true};
+        eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        eglDestroyContext(display, context);
+        return refusal;
+    }
+    return {"no OpenGL (" + error + ")"};
+}
+
+// A current context of the needed version on `display`, or nothing; then `refusal` says what was found, unless it
+// names a version that another display had and this one has none.
+std::optional<EGLContext> try_context(EGLDisplay display, Refusal& refusal) {
+    const auto refuse = [&](const Refusal& by) {
+        if (by.names_version || !refusal.names_version) refusal = by;
+        return std::nullopt;
+    };
+    if (!eglInitialize(display, nullptr, nullptr)) return refuse({"eglInitialize: " + egl_error()});
     const EGLint config_wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
     EGLConfig config = EGL_NO_CONFIG_KHR;
     EGLint config_count = 0;
     eglChooseConfig(display, config_wanted, &config, 1, &config_count);
     if (config_count == 0) config = EGL_NO_CONFIG_KHR;
-    const EGLint context_wanted[] = {
-        EGL_CONTEXT_MAJOR_VERSION,           4,       EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
-        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
-    EGLContext context = EGL_NO_CONTEXT;
-    if (eglBindAPI(EGL_OPENGL_API)) context = eglCreateContext(display, config, EGL_NO_CONTEXT, context_wanted);
-    if (context != EGL_NO_CONTEXT && eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) return context;
-    why = "no OpenGL 4.5 core context: " + egl_error();
-    if (context != EGL_NO_CONTEXT) eglDestroyContext(display, context);
+    const EGLContext context = make_context(display, config, needed);
+    if (context != EGL_NO_CONTEXT) return context;
+    const Refusal by = refusal_of(display, config, egl_error());
     eglTerminate(display);
-    return std::nullopt;
+    return refuse(by);
 }
 
 }  // namespace
@@ -78,16 +117,16 @@ HeadlessContext::HeadlessContext() {
     void* library = dlopen("libEGL.so.1", RTLD_LAZY | RTLD_LOCAL);
     if (!library) throw std::runtime_error("EGL: found no libEGL.so.1, expected one with a driver of OpenGL 4.5 core");
     dlclose(library);
-    std::string why = "no EGL device and no surfaceless platform";
+    Refusal refusal{"no EGL device and no surfaceless platform"};
     for (EGLDisplay display : candidate_displays()) {
         if (display == EGL_NO_DISPLAY) continue;
-        if (const auto context = try_context(display, why)) {
+        if (const auto context = try_context(display, refusal)) {
             display_ = display;
             context_ = *context;
             return;
         }
     }
-    throw std::runtime_error("EGL: found " + why +
+    throw std::runtime_error("EGL: found " + refusal.found +
                              ", expected a driver with OpenGL 4.5 core (Mesa's llvmpipe will do)");
 }
 

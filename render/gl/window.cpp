@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "render/gl/device.h"
+
 namespace render::gl {
 
 namespace {
@@ -121,6 +123,26 @@ bool start(std::string& refusals) {
     return false;
 }
 
+// The OpenGL that this display has, where it isn't what was asked for; empty: none. GLFW runs.
+std::string found_on_display() {
+    for (const bool core : {true, false}) {  // drivers answer a low version with the highest that they have
+        glfwDefaultWindowHints();
+        glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+        if (core) {
+            glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+            glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 2);
+            glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+        }
+        GLFWwindow* probe = glfwCreateWindow(1, 1, "", nullptr, nullptr);
+        if (!probe) continue;
+        glfwMakeContextCurrent(probe);
+        const std::string found = found_device();
+        glfwDestroyWindow(probe);
+        return found;
+    }
+    return "";
+}
+
 }  // namespace
 
 bool Window::display_available(std::string* obstacle) {
@@ -144,11 +166,11 @@ Window::Window(const std::string& title, int width, int height, Use use) {
     glfwWindowHint(GLFW_DEPTH_BITS, 0);  // drawing happens in the renderer's own target
     window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
     if (!window_) {
-        const std::string why = glfw_error();
+        const std::string why = glfw_error(), there = use == Use::draw ? found_on_display() : "";
         glfwTerminate();
         const std::string wanted = use == Use::draw ? "OpenGL 4.5 core" : "OpenGL";
-        throw std::runtime_error("window: found no " + wanted + " on this display (" + why +
-                                 "), expected one; --headless may have it");
+        throw std::runtime_error("window: found " + (there.empty() ? "no OpenGL" : there) + " for this display (" +
+                                 why + "), expected " + wanted + "; --headless may have it");
     }
     glfwMakeContextCurrent(window_);
     glfwSwapInterval(1);

@@ -241,14 +241,18 @@ bool has_llvmpipe_alone() {
     return tests::run("stadium", small + "--draw gl --frames 1 --summary -").out.find("llvmpipe") != std::string::npos;
 }
 
-TEST(StadiumProgram, SaysThatThereIsNoOpenGl) {
+TEST(StadiumProgram, SaysWhichOpenGlIsTooOld) {
     if (!has_llvmpipe_alone()) GTEST_SKIP() << "needs Mesa's llvmpipe as the only driver";
-    setenv("MESA_GL_VERSION_OVERRIDE", "3.3", 1);
-    const tests::Outcome outcome = tests::run("stadium", small + "--draw gl --frames 1");
-    unsetenv("MESA_GL_VERSION_OVERRIDE");
-    EXPECT_EQ(outcome.code, 1);
-    EXPECT_TRUE(tests::one_line(outcome.err)) << outcome.err;
-    EXPECT_NE(outcome.err.find("4.5"), std::string::npos) << outcome.err;
+    for (const std::string version : {"2.1", "3.3", "4.4"}) {
+        setenv("MESA_GL_VERSION_OVERRIDE", version.c_str(), 1);
+        const tests::Outcome outcome = tests::run("stadium", small + "--draw gl --frames 1");
+        unsetenv("MESA_GL_VERSION_OVERRIDE");
+        EXPECT_EQ(outcome.code, 1);
+        EXPECT_TRUE(tests::one_line(outcome.err)) << outcome.err;
+        EXPECT_NE(outcome.err.find("found OpenGL " + version + " "), std::string::npos) << outcome.err;
+        EXPECT_NE(outcome.err.find("on llvmpipe"), std::string::npos) << outcome.err;
+        EXPECT_NE(outcome.err.find("OpenGL 4.5 core"), std::string::npos) << outcome.err;
+    }
 }
 
 TEST(StadiumProgram, DrawsNativelyWhereOpenGlIsSoftwareOrMissing) {
