@@ -4,6 +4,8 @@
 #include <cassert>
 #include <span>
 
+#include "scene/ground.h"
+
 namespace scene {
 
 void StaticMeshBuilder::quad(glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d, Color color) {
@@ -45,14 +47,29 @@ void StaticMeshBuilder::box(glm::vec3 center, glm::vec3 x, glm::vec3 y, glm::vec
 // Finer where cameras are, so that world x and z interpolate exactly enough to draw lines from.
 void StaticMeshBuilder::ground() {
     constexpr Color unseen = {146, 143, 137, static_cast<std::uint8_t>(Surface::ground)};
-    constexpr std::array lines{-2000.0f, -1000.0f, -500.0f, -250.0f, -120.0f, -80.0f,  -40.0f, 0.0f,
-                               40.0f,    80.0f,    120.0f,  250.0f,  500.0f,  1000.0f, 2000.0f};  // [m]
-    for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
-        for (std::size_t j = 0; j + 1 < lines.size(); ++j) {
+    constexpr std::array lines{-250.0f, -120.0f, -80.0f, -40.0f, 0.0f, 40.0f, 80.0f, 120.0f, 250.0f};  // [m]
+    constexpr std::size_t fields = lines.size() - 1;
+    const std::size_t first = mesh.vertices.size();
+    for (std::size_t i = 0; i < fields; ++i) {
+        for (std::size_t j = 0; j < fields; ++j) {
             const float x0 = lines[i], x1 = lines[i + 1], z0 = lines[j], z1 = lines[j + 1];
             quad({x0, 0, z1}, {x1, 0, z1}, {x1, 0, z0}, {x0, 0, z0}, unseen);
         }
     }
+    // Rings around it, whose quads grow with their distance, as far as OpenGL interpolates well.
+    constexpr float growth = 8;
+    for (float inner = 1; inner * lines.back() < ground_reach; inner *= growth) {
+        const float outer = inner * growth;
+        for (std::size_t i = 0; i < fields; ++i) {
+            glm::vec3 a(lines[i], 0, lines.back()), b(lines[i + 1], 0, lines.back());
+            for (int side = 0; side < 4; ++side) {
+                quad(outer * a, outer * b, inner * b, inner * a, unseen);
+                a = {a.z, 0, -a.x};
+                b = {b.z, 0, -b.x};
+            }
+        }
+    }
+    for (StaticVertex& vertex : std::span(mesh.vertices).subspan(first)) vertex.normal = {0, 1, 0};  // without rounding
 }
 
 void StaticMeshBuilder::close_sector() {

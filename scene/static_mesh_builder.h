@@ -28,7 +28,7 @@ struct StaticMeshBuilder {
     // All six sides of a box with half axes x, y, z, right-handed; the front looks along z.
     void box(glm::vec3 center, glm::vec3 x, glm::vec3 y, glm::vec3 z, Color front, Color others);
 
-    // The flat sheet that the ground's shader paints: y = 0, out to 2 km.
+    // The flat sheet that the ground's shader paints: y = 0, out to ground_reach.
     void ground();
 
     // Everything added since the last sector, at least a triangle, becomes a sector.

@@ -1,5 +1,6 @@
 // The native background against OpenGL's.
 #include <cmath>
+#include <vector>
 
 #include "render/gl/renderer.h"
 #include "render/native/backdrop.h"
@@ -35,7 +36,8 @@ TEST_F(NativeBackdropAndGl, ShowTheSame) {
     constexpr int near_enough = 2;  // of 255: rounding of two ways to the same number
     // Ground and sky that are seen in a part of a pixel have the light of its middle.
     constexpr int nearly = 12;  // of 255
-    constexpr int most_nearly = width * height / 500;
+    constexpr int most_nearly =
+        width * height / 500 + width;  // at the horizon, a row of pixels, the sky changes fastest
     // Edges pass a sample on either side.
     constexpr int most_others = 4 * width * height / 10000;
     const scene::StadiumPlan plan = scene::plan_stadium(600);
@@ -51,30 +53,31 @@ TEST_F(NativeBackdropAndGl, ShowTheSame) {
         gl.draw(nobody);
         return gl.read_image();
     };
+    std::vector<scene::CameraPose> poses = {
+        {{1000, 300, 400}, {0, 0, 0}, 1}, {{10, 1000, 5}, {0, 0, 0}, 1}, {{3000, 30, -4000}, {0, 20, 0}, 0.5}};
     for (const scene::CameraPath* path :
          {&cameras.still, &cameras.close, &cameras.medium, &cameras.remote, &cameras.roam})
-        for (const double time : {0.0, 21.0, 44.0}) {
-            const scene::CameraPose pose = path->at(time);
-            const render::Image same = shoot(pose, 1), fine = shoot(pose, finer);
-            const render::native::BackdropPicture picture =
-                tests::paint(native, render::make_view(pose, width, height));
-            int nearlies = 0, others = 0;
-            for (int y = 0; y < height; ++y)
-                for (int x = 0; x < width; ++x) {
-                    double off_same = 0, off_mean = 0;
-                    for (int channel = 0; channel < 3; ++channel) {
-                        const int byte = picture.color.row(y)[x] >> (8 * channel) & 255;
-                        off_same = std::max<double>(off_same, std::abs(byte - byte_of(same, x, y, channel)));
-                        off_mean = std::max(off_mean, std::abs(byte - filtered(fine, x, y, channel)));
-                    }
-                    const double off = std::min(off_same, off_mean);
-                    nearlies += off > near_enough;
-                    others += off > nearly;
+        for (const double time : {0.0, 21.0, 44.0}) poses.push_back(path->at(time));
+    for (const scene::CameraPose& pose : poses) {
+        const render::Image same = shoot(pose, 1), fine = shoot(pose, finer);
+        const render::native::BackdropPicture picture = tests::paint(native, render::make_view(pose, width, height));
+        int nearlies = 0, others = 0;
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) {
+                double off_same = 0, off_mean = 0;
+                for (int channel = 0; channel < 3; ++channel) {
+                    const int byte = picture.color.row(y)[x] >> (8 * channel) & 255;
+                    off_same = std::max<double>(off_same, std::abs(byte - byte_of(same, x, y, channel)));
+                    off_mean = std::max(off_mean, std::abs(byte - filtered(fine, x, y, channel)));
                 }
-            std::printf("%d nearly, %d others\n", nearlies, others);
-            EXPECT_LE(nearlies, most_nearly);
-            EXPECT_LE(others, most_others);
-        }
+                const double off = std::min(off_same, off_mean);
+                nearlies += off > near_enough;
+                others += off > nearly;
+            }
+        std::printf("%d nearly, %d others\n", nearlies, others);
+        EXPECT_LE(nearlies, most_nearly);
+        EXPECT_LE(others, most_others);
+    }
 }
 
 }  // namespace

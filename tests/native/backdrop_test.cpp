@@ -107,6 +107,29 @@ TEST(NativeBackdrop, KnowsTheFarthestOfEveryBlock) {
         }
 }
 
+// From a kilometre away, from above and from where nothing of the scene is a pixel: whatever looks down sees ground.
+TEST(NativeBackdrop, HasGroundWhereverACameraLooksDown) {
+    Stadium stadium;
+    constexpr double least_dip = 0.02;  // [rad] ten kilometres up the sheet ends that far below the horizon
+    constexpr int width = 320, height = 180;
+    for (const glm::dvec3 position : {glm::dvec3(1000, 300, 400), glm::dvec3(10, 1000, 5), glm::dvec3(3000, 30, -4000),
+                                      glm::dvec3(-1e5, 1e4, 1e5)}) {
+        const render::View view = render::make_view({position, {0, 0, 0}, 1}, width, height);
+        const BackdropPicture picture = tests::paint(stadium.backdrop, view);
+        int looking_down = 0;
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) {
+                const float u = (2 * static_cast<float>(x) + 1) / width - 1,
+                            v = 1 - (2 * static_cast<float>(y) + 1) / height;
+                const glm::vec3 ray = view.forward + u * view.tan_half_x * view.right + v * view.tan_half_y * view.up;
+                if (glm::normalize(ray).y > -least_dip) continue;
+                ++looking_down;
+                ASSERT_GT(picture.depth.row(y)[x], 0) << x << ", " << y << " from " << position.x << ", " << position.y;
+            }
+        EXPECT_GT(looking_down, width * height / 3);
+    }
+}
+
 // Triangles of one colour each; `corners` three a triangle.
 scene::StaticMesh mesh_of(const std::vector<glm::vec3>& corners) {
     scene::StaticMesh mesh;

@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
 
+#include "scene/ground.h"
 #include "sfsm/random.h"
 #include "tests/scene/spacing.h"
 
@@ -184,13 +187,30 @@ TEST_P(Structure, OnlyTheGroundIsGround) {
     }
 }
 
-TEST_P(Structure, GroundReachesTwoKilometresAllAround) {
+// No gap and no overlap: its triangles' areas add up to the square's, and whole edges meet everywhere inside of it.
+TEST_P(Structure, GroundIsOneSheetAsFarAsCamerasCanSee) {
+    constexpr double reach = scene::ground_reach, earth_radius = 6.371e6, farthest_camera = 1e5;  // [m]
+    EXPECT_GT(reach - farthest_camera, std::sqrt(2 * earth_radius * 1e4)) << "from as high as aeroplanes fly";
     double area = 0;
+    std::map<std::array<float, 4>, int> edges;  // from and to: how often, less how often the other way
     for (std::size_t t = 0; t < triangle_count(); ++t) {
-        const StaticVertex &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2);
-        if (is_ground(a)) area += 0.5 * glm::length(glm::cross(b.position - a.position, c.position - a.position));
+        if (!is_ground(corner(t, 0))) continue;
+        const glm::dvec3 a = corner(t, 0).position, b = corner(t, 1).position, c = corner(t, 2).position;
+        area += 0.5 * glm::cross(b - a, c - a).y;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const glm::vec3 from = corner(t, i).position, to = corner(t, (i + 1) % 3).position;
+            ++edges[{from.x, from.z, to.x, to.z}];
+            --edges[{to.x, to.z, from.x, from.z}];
+        }
     }
-    EXPECT_NEAR(area, 4000.0 * 4000.0, 1.0);
+    EXPECT_NEAR(area / (4 * reach * reach), 1, 1e-9);
+    for (const auto& [edge, count] : edges) {
+        ASSERT_LE(std::abs(count), 1);
+        if (count == 0) continue;
+        const bool is_border =
+            (edge[0] == edge[2] && std::abs(edge[0]) == reach) || (edge[1] == edge[3] && std::abs(edge[1]) == reach);
+        ASSERT_TRUE(is_border) << edge[0] << ' ' << edge[1] << " to " << edge[2] << ' ' << edge[3];
+    }
 }
 
 TEST_P(Structure, EverySeatIsOnATread) {
