@@ -5,12 +5,16 @@
 
 namespace sfsm {
 
-double Aim::aim_ms(const CostModel& model, double least_ms, double uncertainty) const {
+double Aim::wanted_ms(const CostModel& model) const {
     const double for_noise = 1 - std::min(options.headroom * model.noise(), options.most_headroom);
     const double for_tail = std::max(options.tail_limit * std::exp(-model.tail()), options.lowest_aim);
-    const double wanted_ms = target_ms * std::min(for_noise, for_tail);
-    if (least_ms > wanted_ms) return least_ms + options.worthwhile * (least_ms - wanted_ms);
-    return std::max(wanted_ms * std::exp(-options.caution * uncertainty), least_ms);
+    return target_ms * std::min(for_noise, for_tail);
+}
+
+double Aim::aim_ms(const CostModel& model, double least_ms, double uncertainty) const {
+    const double wanted = wanted_ms(model);
+    if (least_ms > wanted) return least_ms + options.worthwhile * (least_ms - wanted);
+    return std::max(wanted * std::exp(-options.caution * uncertainty), least_ms);
 }
 
 bool Aim::is_kept(const Prediction& prediction, double aim_ms) const {

@@ -14,6 +14,9 @@ struct Aim {
     double range = 0;      // L [m]; 0: none yet
     Status status;
 
+    // Even the coarsest frame, `least_ms`, is slower than wanted.
+    bool is_out_of_reach(const CostModel& model, double least_ms) const { return least_ms > wanted_ms(model); }
+
     // The time [ms] that frames are aimed at: below the target for the noise, and lower by `caution` times the
     // uncertainty. Where even the coarsest frame, `least_ms`, is too slow: as much above it as detail is worth.
     double aim_ms(const CostModel& model, double least_ms, double uncertainty) const;
@@ -26,6 +29,10 @@ struct Aim {
 
     // Shows what is believed of the next frame.
     void believe(const Prediction& prediction, const CostModel& model);
+
+private:
+    // [ms] Below the target for the noise.
+    double wanted_ms(const CostModel& model) const;
 };
 
 }  // namespace sfsm

@@ -52,7 +52,15 @@ void ForecastLaw::decide(const Forecast& forecast, std::int64_t frame) {
 Plan ForecastLaw::first_guess(const Forecast& forecast) const {
     const Prices guess = prices_of_a_slow_machine(drawing_);
     const double least_ms = plan_ms(cheapest_plan(forecast, aim_.range), guess);
+    if (least_ms > aim_.target_ms) return worthwhile_plan(forecast, aim_.range, guess, first_slack * least_ms);
     return least_loss_plan(forecast, aim_.range, guess, std::max(aim_.target_ms, first_slack * least_ms));
+}
+
+// Of those that take at most so long. Where nothing meets the target, detail must be worth its time.
+Plan ForecastLaw::best_plan(const Forecast& forecast, double least_ms, double budget_ms) const {
+    const bool is_out_of_reach = aim_.is_out_of_reach(model_.costs(), least_ms);
+    const auto plan = is_out_of_reach ? worthwhile_plan : least_loss_plan;
+    return plan(forecast, aim_.range, model_.foreseen_prices(), budget_ms);
 }
 
 void ForecastLaw::choose(const Forecast& forecast) {
@@ -62,11 +70,16 @@ void ForecastLaw::choose(const Forecast& forecast) {
     const double least_ms = plan_ms(cheapest_plan(forecast, aim_.range), prices);
     const double aim_ms = aim_.aim_ms(costs, least_ms, 0);
     const Plan now = plan_of(forecast, kept_);
-    const Plan best = least_loss_plan(forecast, aim_.range, prices, aim_ms);
+    const Plan best = best_plan(forecast, least_ms, aim_ms);
     const Prediction prediction = model_.predict(now);
+    double now_may_take_ms = aim_ms;
+    if (aim_.is_out_of_reach(costs, least_ms)) {
+        const double ms_where_worth_as_much = ms_of_detail(best, plan_ms(best, prices)) / (1 + now.loss_px);
+        now_may_take_ms = std::min(aim_ms, ms_where_worth_as_much);
+    }
     aim_.believe(prediction, costs);
     const bool is_worth_it = best.loss_px < now.loss_px * (1 - aim_.options.better);
-    if (aim_.is_kept(prediction, aim_ms) && !is_worth_it) return;
+    if (aim_.is_kept(prediction, now_may_take_ms) && !is_worth_it) return;
     const Plan plan = surely_fitting(forecast, best, least_ms, aim_ms);
     const Decision chosen = decision_of(plan);
     if (chosen == kept_) return;
@@ -84,13 +97,12 @@ Plan ForecastLaw::surely_fitting(const Forecast& forecast, const Plan& best, dou
         return std::exp(prediction.log_ms + aim_.options.caution * prediction.uncertainty);
     };
     if (least_ms >= aim_ms || longest_ms(best) <= aim_ms * (1 + aim_.options.band)) return best;
-    const Prices prices = model_.foreseen_prices();
     double sure_ms = least_ms, unsure_ms = aim_ms;
-    Plan sure = least_loss_plan(forecast, aim_.range, prices, sure_ms);
+    Plan sure = best_plan(forecast, least_ms, sure_ms);
     constexpr int halvings = 5;
     for (int i = 0; i < halvings; ++i) {
         const double middle_ms = std::sqrt(sure_ms * unsure_ms);
-        const Plan middle = least_loss_plan(forecast, aim_.range, prices, middle_ms);
+        const Plan middle = best_plan(forecast, least_ms, middle_ms);
         if (longest_ms(middle) <= aim_ms) {
             sure = middle;
             sure_ms = middle_ms;
@@ -101,14 +113,25 @@ Plan ForecastLaw::surely_fitting(const Forecast& forecast, const Plan& best, dou
     return sure;
 }
 
-// One frame with half the motion, or with the finest points: what the way down would cost, before it is needed.
+// One frame with half the motion, or with the finest points: what the way down would cost, before it is needed. Where
+// the target is out of reach, with more detail than is believed to be worth its time, as that may be wrong.
 void ForecastLaw::probe(const Forecast& forecast) {
     if (!is_time_to_probe()) return;
     const Plan now = plan_of(forecast, kept_);
     const Plan cheapest = cheapest_plan(forecast, aim_.range);
+    const double least_ms = plan_ms(cheapest, model_.foreseen_prices());
     Plan plan = now;
-    if (probe_.motion < aim_.options.probes &&
-        is_doubtful(plan_at(forecast, aim_.range, cheapest.distance, now.size))) {
+    if (aim_.is_out_of_reach(model_.costs(), least_ms)) {
+        const double most_ms = aim_.aim_ms(model_.costs(), least_ms, 0);
+        plan = least_loss_plan(forecast, aim_.range, model_.foreseen_prices(), most_ms);
+        const bool is_finer = plan.loss_px < now.loss_px * (1 - aim_.options.better);
+        if (probe_.finer >= aim_.options.probes || !is_finer || !is_doubtful(plan)) return;
+        probe_.finer += 1;
+        aim_.status.reason = "learning what finer detail costs";
+    } else if (aim_.status.predicted_ms > aim_.target_ms) {
+        return;
+    } else if (probe_.motion < aim_.options.probes &&
+               is_doubtful(plan_at(forecast, aim_.range, cheapest.distance, now.size))) {
         plan = slower_plan(forecast, aim_.range, now, probe_share);
         probe_.motion += 1;
         aim_.status.reason = "learning what motion costs";
@@ -131,8 +154,7 @@ void ForecastLaw::probe(const Forecast& forecast) {
 bool ForecastLaw::is_time_to_probe() {
     if (probe_.age > 0 && ++probe_.age < longest_wait) return false;
     probe_.age = 0;
-    if (model_.costs().samples() < first_probe || ++since_choice_ < quiet_before_probe) return false;
-    return aim_.status.predicted_ms <= aim_.target_ms;
+    return model_.costs().samples() >= first_probe && ++since_choice_ >= quiet_before_probe;
 }
 
 bool ForecastLaw::is_doubtful(const Plan& plan) const {

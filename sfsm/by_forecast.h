@@ -24,15 +24,17 @@ public:
     void decide(const Forecast& forecast, std::int64_t frame);
 
 private:
-    // A frame drawn to learn from, while the target is met and the price of motion or of points is unknown.
+    // A frame drawn to learn from: while the target is met and the price of motion or of points is unknown, or while it
+    // is out of reach and that of finer detail is.
     struct Probe {
-        int motion = 0, points = 0;  // drawn so far
+        int motion = 0, points = 0, finer = 0;  // drawn so far
         Decision decision;
         int age = 0;  // decisions since; 0: none is on its way
     };
 
     void choose(const Forecast& forecast);
     Plan first_guess(const Forecast& forecast) const;
+    Plan best_plan(const Forecast& forecast, double least_ms, double budget_ms) const;
     Plan surely_fitting(const Forecast& forecast, const Plan& best, double least_ms, double aim_ms) const;
     void probe(const Forecast& forecast);
     bool is_time_to_probe();

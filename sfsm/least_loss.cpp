@@ -171,4 +171,25 @@ Plan least_loss_plan(const Forecast& forecast, double range, const Prices& price
     return plan_of(forecast, range, best_motion, best_shapes);
 }
 
+double ms_of_detail(const Plan& plan, double ms) {
+    return ms * (1 + plan.loss_px);
+}
+
+Plan worthwhile_plan(const Forecast& forecast, double range, const Prices& prices, double budget_ms) {
+    Plan best = least_loss_plan(forecast, range, prices, budget_ms);
+    double least = ms_of_detail(best, plan_ms(best, prices));
+    const double every_ms = prices.frame + cost_of(only_on<WorkAxis::frame>(forecast.frame), {0, prices.each});
+    for (std::size_t m = 0; m < forecast.motion.size(); ++m) {
+        const double before_ms = every_ms + step_ms<WorkAxis::motion>(forecast.motion[m], prices);
+        for (std::size_t s = 0; s < forecast.shapes.size(); ++s) {
+            const double ms = before_ms + step_ms<WorkAxis::shape>(forecast.shapes[s], prices);
+            const double loss = forecast.motion[m].loss_px + forecast.shapes[s].loss_px;
+            if (ms > budget_ms || !is_cheaper(ms * (1 + loss), least)) continue;
+            best = plan_of(forecast, range, {m, 1}, {s, 1});
+            least = ms_of_detail(best, ms);
+        }
+    }
+    return best;
+}
+
 }  // namespace sfsm

@@ -36,4 +36,12 @@ Plan cheapest_plan(const Forecast& forecast, double range);
 // steps.
 Plan least_loss_plan(const Forecast& forecast, double range, const Prices& prices, double budget_ms);
 
+// What a plan's detail, 1 / (1 + loss_px), costs: the time of a whole one [ms].
+double ms_of_detail(const Plan& plan, double ms);
+
+// For a target that nothing meets: the plan whose detail costs the least, of all pairs of steps that take at most
+// `budget_ms` and the plan of least loss. Twice the time is worth half the loss where that is most of (1 + loss_px),
+// and a few thousandths of a pixel are worth none. Cost: steps times steps.
+Plan worthwhile_plan(const Forecast& forecast, double range, const Prices& prices, double budget_ms);
+
 }  // namespace sfsm

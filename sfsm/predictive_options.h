@@ -16,7 +16,7 @@ struct PredictiveOptions {
     double band_sigmas = 2.6;  // [sigmas of the prediction], [0, 6]
     double better = 0.1;       // [share of the loss] another decision must save to be taken all the same, [0, 1]
 
-    double worthwhile = 0.25;  // [share of the miss] that detail may cost where the target is out of reach, [0, 1]
+    double worthwhile = 0.25;  // [share of the miss] that detail may cost at most where it is out of reach, [0, 1]
     int probes = 2;            // single frames drawn to learn what motion costs, and as many for points, >= 0
 
     // Throws std::invalid_argument naming the first broken rule.

@@ -128,6 +128,29 @@ TEST(LeastLoss, NoPairOfStepsLosesAsLittleForLess) {
     }
 }
 
+TEST(LeastLoss, OfPlansThatFitNoPairOfStepsHasCheaperDetailThanTheWorthwhile) {
+    std::mt19937_64 random(7);
+    int coarser = 0;
+    for (int trial = 0; trial < 2000; ++trial) {
+        const Steps steps(random);
+        const double cheapest = steps.ms(steps.motion.back(), steps.shapes.back());
+        const double budget = uniform(random, 0.9, 3) * cheapest;
+        const Plan plan = worthwhile_plan(steps.forecast(), test_range, steps.prices, budget);
+        const Plan finest = least_loss_plan(steps.forecast(), test_range, steps.prices, budget);
+        const double ms = plan_ms(plan, steps.prices);
+        ASSERT_LE(ms, std::max(budget, cheapest) * (1 + rounding)) << trial;
+        ASSERT_LE(ms_of_detail(plan, ms), ms_of_detail(finest, plan_ms(finest, steps.prices)) * (1 + rounding));
+        coarser += plan.loss_px > finest.loss_px;
+        for (const Step& m : steps.motion)
+            for (const Step& s : steps.shapes) {
+                if (steps.ms(m, s) > budget) continue;
+                ASSERT_LE(ms_of_detail(plan, ms), steps.ms(m, s) * (1 + m.loss_px + s.loss_px) * (1 + rounding))
+                    << trial;
+            }
+    }
+    EXPECT_GT(coarser, 100);
+}
+
 TEST(LeastLoss, CountsAllThatIsKnownBeforehand) {
     const std::vector<Step> motion = {motion_step(test_range, 0, 0)};
     const std::vector<Step> shapes = {shape_step(0, 1000, 0, 0), shape_step(1, 0, 800, 2), shape_step(2, 0, 400, 4)};

@@ -541,6 +541,53 @@ TEST(PredictiveForecast, ThereIsNoProbeWhileTheTargetIsMissed) {
     EXPECT_LE(changes(rows, 60, rows.size()), 2);
 }
 
+// A million people half a pixel tall, as OpenGL's forecast had them: finer than S = 1 each step has half as many points
+// again, and all of them together save a tenth of a pixel.
+TEST(PredictiveForecast, OutOfReachNoPointsAreDrawnThatAreNotWorthTheirTime) {
+    constexpr std::int64_t people = 998'772, fewest_points = 1'997'544;
+    const std::vector<Step> motion = {motion_step(std::numeric_limits<double>::infinity(), people, 0),
+                                      motion_step(0.67 * test_range, 328'127, 0.0012),
+                                      motion_step(0.17 * test_range, 31'212, 0.0033)};
+    std::vector<Step> shapes = {shape_step(0, 1'296'406'056, 0, 0),       shape_step(0.354, 0, 14'846'244, 0.1768),
+                                shape_step(0.42, 0, 10'344'904, 0.2101),  shape_step(0.5, 0, 7'423'122, 0.2443),
+                                shape_step(0.595, 0, 5'172'452, 0.2682),  shape_step(0.707, 0, 3'713'043, 0.2785),
+                                shape_step(0.841, 0, 2'646'321, 0.27974), shape_step(1, 0, 2'187'635, 0.279742),
+                                shape_step(1.19, 0, 2'002'459, 0.279742)};
+    for (double size = 1.414; size < 33; size *= 1.189) shapes.push_back(shape_step(size, 0, fewest_points, 0.279742));
+    const Forecast forecast{Work{people}, motion, shapes};
+    for (const Drawing drawing : {Drawing::opengl, Drawing::native})
+        for (const double point_ms : {1.2e-4, 3e-5, 5e-6}) {
+            const Prices prices{1, {6e-4, 8e-5, point_ms, 1e-6}};
+            const double least_ms = plan_ms(cheapest_plan(forecast, test_range), prices);
+            PredictiveLaw law(PredictiveOptions{}, drawing);
+            std::mt19937_64 random(1);
+            int dear = 0;  // frames, to learn what they cost
+            for (std::int64_t frame = 0; frame < 200; ++frame) {
+                const Decision decision = law.decide({target_ms, test_range, &forecast});
+                const Plan plan = plan_at(forecast, test_range, decision.motion_distance, decision.splat_size);
+                const double ms = plan_ms(plan, prices);
+                dear += plan[WorkKind::point] > 2 * fewest_points || ms > 1.5 * least_ms ? 1 : 0;
+                Work work;
+                for (std::size_t i = 0; i < work_kinds; ++i) work.counts[i] = std::llround(plan.counts[i]);
+                law.observe({frame, ms * std::exp(0.02 * normal(random)), decision, work});
+            }
+            EXPECT_LE(dear, PredictiveOptions{}.probes) << name_of(drawing) << ", a point " << point_ms << " ms";
+        }
+}
+
+// What every frame has is the trouble, not people: their detail costs next to nothing, and stays.
+TEST(PredictiveForecast, OutOfReachDetailThatCostsLittleIsKept) {
+    Scene scene = scene_of(2000);
+    scene.prices.frame = 1.5 * target_ms;
+    PredictiveLaw law;
+    const auto rows =
+        run(law, ForecastLoop{[&](std::int64_t) -> const Scene& { return scene; }, constant(target_ms), 400, 0, 0.01});
+    const Decision& decision = rows.back().decision;
+    const Plan kept = plan_at(scene.forecast, test_range, decision.motion_distance, decision.splat_size);
+    EXPECT_LE(kept.loss_px, 0.25 * cheapest_plan(scene.forecast, test_range).loss_px);
+    EXPECT_LE(rows.back().frame_ms, 1.1 * scene.prices.frame);
+}
+
 // --- Anything at all.
 
 double any_number(std::mt19937_64& random) {
