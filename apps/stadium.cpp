@@ -4,18 +4,18 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <set>
-#include <utility>
 
 #include "apps/canvas.h"
 #include "apps/free_camera.h"
 #include "apps/interrupt.h"
+#include "apps/memory.h"
 #include "apps/program.h"
 #include "apps/progress.h"
 #include "apps/scene_clock.h"
 #include "apps/stadium_options.h"
 #include "apps/stadium_outputs.h"
 #include "apps/stage.h"
+#include "apps/warm_up.h"
 #include "render/renderer.h"
 #include "render/select.h"
 #include "scene/cameras.h"
@@ -120,17 +120,8 @@ private:
         for (const sfsm::State state : {sfsm::State::original, sfsm::State::points}) {
             if (options_.state && (*options_.state == sfsm::State::points) != (state == sfsm::State::points)) continue;
             const render::Frame& everybody = selector_->select(fixed_decision(options_, state, range), -1);
-            render::Frame frame;
-            frame.view = everybody.view;
-            frame.splat_size = everybody.splat_size;
-            frame.far_people = everybody.far_people;
-            frame.batch_numbers = everybody.batch_numbers;
-            if (!everybody.far_blocks.empty()) frame.far_blocks = {everybody.far_blocks.front()};
-            std::set<std::pair<std::uint32_t, std::uint32_t>> kinds;
-            for (const render::Person& person : everybody.people)
-                if (kinds.emplace(person.character, person.representation).second) frame.people.push_back(person);
             canvas_.renderer().begin(view);
-            canvas_.renderer().draw(frame);
+            canvas_.renderer().draw(one_of_each(everybody));
         }
         canvas_.renderer().read_image();  // waits for them
     }
@@ -282,6 +273,7 @@ private:
 
 void run(const StadiumOptions& options) {
     finish_on_signal();
+    require_memory(options.people, options.width, options.height, available_memory());
     StadiumOutputs outputs(options);
     Stadium stadium(options);
     stadium.run(outputs);

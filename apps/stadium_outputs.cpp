@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "apps/memory.h"
 #include "sfsm/report/report.h"
 #include "sfsm/summary.h"
 
@@ -50,6 +51,7 @@ void print_summary(const sfsm::Summary& summary, const std::map<std::string, std
     std::printf("frames        state 0: %lld   state 1: %lld   state 2: %lld\n",
                 static_cast<long long>(summary.state_frames[0]), static_cast<long long>(summary.state_frames[1]),
                 static_cast<long long>(summary.state_frames[2]));
+    std::printf("memory        %s at most\n", bytes_text(peak_memory()).c_str());
 }
 
 sfsm::Report report_of(std::span<const sfsm::TraceRow> rows, const std::map<std::string, std::string>& settings) {

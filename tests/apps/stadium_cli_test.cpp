@@ -1,6 +1,7 @@
 // The stadium as a user runs it: its contract, its determinism and its answers to bad input. Small crowds and pictures:
 // what is counted and compared does not depend on their size.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <string>
@@ -272,6 +273,44 @@ TEST(StadiumProgram, DrawsNativelyWhereOpenGlIsSoftwareOrMissing) {
     draws_natively("--draw native");
     unsetenv("__EGL_VENDOR_LIBRARY_DIRS");
     expect_usage_error("--draw vulkan", "auto, gl or native");
+}
+
+// [MB] As the summary says it, of a run that takes less than a gigabyte.
+double peak_of(const std::string& arguments) {
+    const tests::Outcome outcome = tests::run("stadium", arguments);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const std::size_t line = outcome.out.find("memory        ");
+    return line == outcome.out.npos ? 0 : std::stod(outcome.out.substr(line + 14));
+}
+
+// After 100 frames all is there; more of them add a row each, in a list that doubles.
+TEST(StadiumProgram, MemoryIsLevelHoweverManyFrames) {
+    constexpr int soon = 100, late = 1000;
+    constexpr double row = 0.002, noise = 3;  // [MB]
+    for (const std::string way : {"native", "gl"}) {
+        const std::string run = "--headless --draw " + way + " --people 600 --size 64x36 --camera roam --frames ";
+        if (way == "gl" && tests::run("stadium", run + "1").code != 0) continue;
+        const double at_first = peak_of(run + std::to_string(soon));
+        EXPECT_GT(at_first, 20);
+        EXPECT_LT(peak_of(run + std::to_string(late)), at_first + row * late + noise) << way;
+    }
+}
+
+TEST(StadiumProgram, RefusesACrowdThatMemoryDoesNotHold) {
+    rlimit before{};
+    getrlimit(RLIMIT_AS, &before);
+    rlimit small_limit = before;
+    small_limit.rlim_cur = 1'500'000'000;
+    ASSERT_EQ(setrlimit(RLIMIT_AS, &small_limit), 0);
+    const tests::Outcome refused = tests::run("stadium", "--headless --draw native --people 10000000 --frames 1");
+    const tests::Outcome taken = tests::run("stadium", small + "--draw native --frames 1");
+    setrlimit(RLIMIT_AS, &before);
+    EXPECT_EQ(refused.code, 1);
+    EXPECT_TRUE(tests::one_line(refused.err)) << refused.err;
+    EXPECT_NE(refused.err.find("memory: found 1."), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find("10000000 people"), std::string::npos) << refused.err;
+    EXPECT_EQ(refused.out, "");
+    EXPECT_EQ(taken.code, 0) << taken.err;
 }
 
 TEST(StadiumProgram, HelpShowsExamples) {
