@@ -34,8 +34,13 @@ class Film {
 public:
     enum class Camera { stands, moves };
 
-    Film(const std::string& preset, Camera camera, sfsm::Decision decision)
-        : pose_(bench::preset(preset)), camera_(camera), decision_(decision) {}
+    struct Size {
+        int width, height;  // [px]
+    };
+    static constexpr Size usual{bench::frame_width, bench::frame_height};
+
+    Film(const std::string& preset, Camera camera, sfsm::Decision decision, Size size = usual)
+        : pose_(bench::preset(preset)), camera_(camera), decision_(decision), size_(size) {}
 
     const render::Frame& shoot(Shooter& shooter) { return shooter.shoot(next_view(), decision_, tick_); }
     const render::Frame& choose(Shooter& shooter) { return shooter.choose(next_view(), decision_, tick_); }
@@ -52,12 +57,13 @@ private:
         ++tick_;
         scene::CameraPose pose = pose_;
         if (camera_ == Camera::moves) pose.position.y += nudge * static_cast<double>(tick_ % 2);
-        return render::make_view(pose, bench::frame_width, bench::frame_height);
+        return render::make_view(pose, size_.width, size_.height);
     }
 
     scene::CameraPose pose_;
     Camera camera_;
     sfsm::Decision decision_;
+    Size size_;
     std::int64_t tick_ = 100;
 };
 
@@ -105,6 +111,24 @@ void draw_nobody(benchmark::State& state, Film::Camera camera) {
     set_sizes();
     film.shoot_emptiness(stadium().native_nobody);
     for (auto _ : state) film.shoot_emptiness(stadium().native_nobody);
+}
+
+// 8K, where pixels are the trouble. `preset` empty: nobody in view.
+void draw_8k(benchmark::State& state, const std::string& preset, Film::Camera camera) {
+    constexpr Film::Size size{7680, 4320};
+    constexpr double splat_size = 4;  // [px]
+    Film film(preset.empty() ? "still" : preset, camera, bench::points_of(splat_size), size);
+    stadium().native_renderer.resize(size.width, size.height);
+    const auto shoot = [&] {
+        if (preset.empty())
+            film.shoot_emptiness(stadium().native_nobody);
+        else
+            film.shoot(stadium().native);
+    };
+    shoot();
+    for (auto _ : state) shoot();
+    state.SetItemsProcessed(state.iterations() * size.width * size.height);
+    set_sizes();
 }
 
 // Milliseconds by the clock and of the process' threads together.
@@ -316,6 +340,10 @@ void register_frames() {
         timed(benchmark::RegisterBenchmark((std::string("noise/") + preset).c_str(), vary, preset))->Iterations(1);
     timed(benchmark::RegisterBenchmark("nobody/standing", draw_nobody, Film::Camera::stands));
     timed(benchmark::RegisterBenchmark("nobody/moving", draw_nobody, Film::Camera::moves));
+    timed(benchmark::RegisterBenchmark("8k/nobody_standing", draw_8k, "", Film::Camera::stands));
+    timed(benchmark::RegisterBenchmark("8k/nobody_moving", draw_8k, "", Film::Camera::moves));
+    for (const std::string preset : shot_presets)
+        timed(benchmark::RegisterBenchmark(("8k/" + preset + "_moving").c_str(), draw_8k, preset, Film::Camera::moves));
 }
 
 void register_prices() {
