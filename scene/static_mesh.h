@@ -16,6 +16,7 @@ struct StaticVertex {
     glm::vec3 position;  // [m]
     glm::vec3 normal;    // unit
     glm::u8vec4 color;   // sRGB; alpha: static_cast of Surface
+    float open = 1;      // how much reaches it of the light from above and below, [0, 1]; the sun's is not meant
 };
 
 // Part of the structure that is drawn or culled as one.

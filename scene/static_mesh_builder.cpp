@@ -8,10 +8,10 @@
 
 namespace scene {
 
-void StaticMeshBuilder::quad(glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d, Color color) {
+void StaticMeshBuilder::quad(glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d, Color color, float open) {
     const glm::vec3 normal = glm::normalize(glm::cross(c - a, d - b));
     const std::uint32_t first = static_cast<std::uint32_t>(mesh.vertices.size());
-    for (const glm::vec3& corner : {a, b, c, d}) mesh.vertices.push_back({corner, normal, color});
+    for (const glm::vec3& corner : {a, b, c, d}) mesh.vertices.push_back({corner, normal, color, open});
     for (const std::uint32_t index : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + index);
 }
 

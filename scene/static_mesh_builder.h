@@ -19,8 +19,8 @@ constexpr Color painted(int red, int green, int blue) {
 struct StaticMeshBuilder {
     StaticMesh mesh;
 
-    // a, b, c, d counter-clockwise seen from the visible side.
-    void quad(glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d, Color color);
+    // a, b, c, d counter-clockwise seen from the visible side; `open`: StaticVertex::open.
+    void quad(glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d, Color color, float open = 1);
 
     // A four-sided column from `foot` to `head`, `width` [m] wide, open at both ends. Its sides are parallel to `x`.
     void column(glm::vec3 foot, glm::vec3 head, glm::vec3 x, float width, float head_width, Color color);

@@ -65,6 +65,7 @@ CONSTANT far_suns = 8;
 CONSTANT attribute_static_position = 0;
 CONSTANT attribute_static_normal = 1;
 CONSTANT attribute_static_color = 2;  // alpha: scene::Surface
+CONSTANT attribute_static_open = 3;
 
 CONSTANT look_slot_bits = 3;
 CONSTANT no_layer = 31;

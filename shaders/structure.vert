@@ -4,6 +4,7 @@
 layout(location = attribute_static_position) in vec3 world_position;
 layout(location = attribute_static_normal) in vec3 normal;
 layout(location = attribute_static_color) in vec4 vertex_color;
+layout(location = attribute_static_open) in float open;
 
 #ifdef GROUND
 out vec2 ground;  // world x, z [m]
@@ -16,6 +17,6 @@ void main() {
 #ifdef GROUND
     ground = world_position.xz;
 #else
-    surface_color = sqrt(vertex_color.rgb * vertex_color.rgb * lit(normal));
+    surface_color = sqrt(vertex_color.rgb * vertex_color.rgb * lit(normal, open));
 #endif
 }

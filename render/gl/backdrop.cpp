@@ -41,6 +41,7 @@ Backdrop::Backdrop(const scene::StaticMesh& structure, const scene::Ground& grou
     add_float(a, attribute_static_position, 3, GL_FLOAT, false, offsetof(scene::StaticVertex, position), binding);
     add_float(a, attribute_static_normal, 3, GL_FLOAT, false, offsetof(scene::StaticVertex, normal), binding);
     add_float(a, attribute_static_color, 4, GL_UNSIGNED_BYTE, true, offsetof(scene::StaticVertex, color), binding);
+    add_float(a, attribute_static_open, 1, GL_FLOAT, false, offsetof(scene::StaticVertex, open), binding);
 }
 
 sfsm::Work Backdrop::work(const View& view) const {

@@ -47,7 +47,7 @@ HWY_INLINE hn::Vec<Words> packed(vec3 color) {
 std::uint32_t light_corner(const FrameBlock& frame, const scene::StaticVertex& corner) {
     constexpr float whole = 255.0f;
     const vec3 color(corner.color.r / whole, corner.color.g / whole, corner.color.b / whole);
-    const vec3 light = Daylight(frame).lit(vec3(corner.normal));
+    const vec3 light = Daylight(frame).lit(vec3(corner.normal), corner.open);
     return hn::GetLane(packed(sqrt(color * color * light)));
 }
 

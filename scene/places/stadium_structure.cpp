@@ -1,8 +1,11 @@
 // build_structure: profiles swept from spoke to spoke, and what stands beside them.
 #include <algorithm>
 #include <array>
+#include <map>
 #include <utility>
+#include <vector>
 
+#include "scene/openness.h"
 #include "scene/person.h"
 #include "scene/places/stadium_layout.h"
 #include "scene/static_mesh_builder.h"
@@ -40,8 +43,87 @@ glm::vec3 lift(glm::vec2 xz, float height) {
     return {xz.x, height, xz.y};
 }
 
+// A row's shell of a seat [m], around the hips and above the floor.
+constexpr float seat_lip = 0.12f, seat_front = 0.22f, seat_back = 0.16f, seat_top = 0.8f;
+constexpr float roof_thickness = 0.6f, rim_thickness = 0.3f;  // [m]
+
+// What stands between the pieces of a section and the light, with people in every row.
+class SectionLight {
+public:
+    explicit SectionLight(const StadiumPlan& plan) {
+        add_stand(plan);
+        bare_ = lines_;
+        for (const Row& row : plan.rows) add_row(plan.room, row);
+    }
+
+    // openness() of a piece that is swept, of one in an aisle with nobody near: the same for all sections.
+    float of(Corner from, Corner to) { return known(known_, lines_, from, to); }
+    float of_aisle(Corner from, Corner to) { return known(known_in_aisles_, bare_, from, to); }
+
+private:
+    using Known = std::map<std::array<float, 4>, float>;
+
+    static float known(Known& values, const std::vector<SectionLine>& lines, Corner from, Corner to) {
+        const auto [value, is_new] = values.try_emplace({from.offset, from.height, to.offset, to.height});
+        if (is_new) value->second = openness({from.offset, from.height}, {to.offset, to.height}, lines);
+        return value->second;
+    }
+
+    void add(Corner from, Corner to, float stops = 1) {
+        lines_.push_back({{from.offset, from.height}, {to.offset, to.height}, stops});
+    }
+
+    void add_stand(const StadiumPlan& plan) {
+        constexpr float far = 100.0f;  // [m]
+        const Row& last = plan.rows.back();
+        const float inner = plan.outer_offset - rim_thickness, rim = last.floor + rim_above_last_row;
+        add({-far, 0}, {wall_offset, 0});
+        add({wall_offset, 0}, {wall_offset, first_floor + parapet_height});
+        add({wall_offset + parapet_depth, first_floor}, {first_row_offset, first_floor});
+        for (std::size_t i = 0; i < plan.rows.size(); ++i) {
+            const Row& row = plan.rows[i];
+            const float end = row.offset + plan.room.depth;
+            add({row.offset, row.floor}, {end, row.floor});
+            if (i + 1 == plan.rows.size()) break;
+            const Row& next = plan.rows[i + 1];
+            const bool is_concourse = i + 1 == plan.lower_rows;
+            const float face = is_concourse ? next.offset - parapet_depth : next.offset;
+            if (is_concourse) add({end, row.floor}, {face, row.floor});
+            add({face, row.floor}, {face, next.floor + (is_concourse ? parapet_height : 0)});
+        }
+        add({last.offset + plan.room.depth, last.floor}, {inner, last.floor});
+        add({inner, last.floor}, {inner, rim});
+        add({plan.outer_offset, rim}, {plan.outer_offset, 0});
+        add({plan.outer_offset, 0}, {plan.outer_offset + far, 0});
+        const Roof& roof = plan.roof;
+        add({roof.outer_offset, roof.outer_height - roof_thickness / 2},
+            {roof.inner_offset, roof.inner_height - roof_thickness / 2});
+    }
+
+    // Who sits leaves less open than who stands: beside them are shoulders, and gaps above.
+    void add_row(const Room& room, const Row& row) {
+        if (!room.seats) {
+            constexpr float stander = 1.6f, stops = 0.6f;  // [m]
+            const float feet = row.offset + room.depth / 2;
+            return add({feet, row.floor}, {feet, row.floor + stander}, stops);
+        }
+        constexpr float knees = 0.37f, shoulders = 1.25f;  // [m] before the hips; above the floor
+        constexpr float legs_stop = 0.5f, body_stops = 0.75f;
+        const float hips = row.offset + hips_depth, surface = row.floor + seat_height;
+        add({hips - seat_front, surface}, {hips + seat_back, surface});
+        add({hips - seat_front, surface - seat_lip}, {hips - seat_front, surface});
+        add({hips + seat_back, surface}, {hips + seat_back, row.floor + seat_top});
+        add({hips - knees, row.floor}, {hips - knees, surface}, legs_stop);
+        add({hips, surface}, {hips, row.floor + shoulders}, body_stops);
+    }
+
+    std::vector<SectionLine> lines_, bare_;
+    Known known_, known_in_aisles_;
+};
+
 struct Builder : StaticMeshBuilder {
     const StadiumPlan& plan;
+    SectionLight light;
 
     glm::vec2 on_chord(std::size_t section, Along along, float offset) const {
         const glm::vec2 from = plan.spokes[section].at(offset);
@@ -55,7 +137,7 @@ struct Builder : StaticMeshBuilder {
         quad(lift(on_chord(section, end, from.offset), from.height),
              lift(on_chord(section, begin, from.offset), from.height),
              lift(on_chord(section, begin, to.offset), to.height), lift(on_chord(section, end, to.offset), to.height),
-             color);
+             color, light.of(from, to));
     }
 
     void sweep(std::size_t section, Corner from, Corner to, Color color) {
@@ -88,17 +170,15 @@ Color seat_color(std::size_t section, std::size_t row) {
 
 // A row's bench of shells: lip, surface, and the two faces of the back.
 void add_seats(Builder& builder, std::size_t section, std::size_t row) {
-    constexpr float lip = 0.12f, front = 0.22f, back = 0.16f,
-                    back_top = 0.8f;  // [m] around the hips and above the floor
     constexpr Along begin{0, aisle_width / 2}, end{1, -aisle_width / 2};
     const float hips = builder.plan.rows[row].offset + hips_depth, floor = builder.plan.rows[row].floor;
     const float surface = floor + seat_height;
     const Color color = seat_color(section, row);
-    builder.sweep(section, {hips - front, surface - lip}, {hips - front, surface}, begin, end, color);
-    builder.sweep(section, {hips - front, surface}, {hips + back, surface}, begin, end, color);
-    builder.sweep(section, {hips + back, surface}, {hips + back, floor + back_top}, begin, end, color);
-    builder.sweep(section, {hips + back, floor + back_top}, {hips + back, floor + builder.plan.room.depth / 4}, begin,
-                  end, color);
+    const float front = hips - seat_front, back = hips + seat_back, top = floor + seat_top;
+    builder.sweep(section, {front, surface - seat_lip}, {front, surface}, begin, end, color);
+    builder.sweep(section, {front, surface}, {back, surface}, begin, end, color);
+    builder.sweep(section, {back, surface}, {back, top}, begin, end, color);
+    builder.sweep(section, {back, top}, {back, floor + builder.plan.room.depth / 4}, begin, end, color);
 }
 
 // Half a step in the aisle, against the riser to the next row.
@@ -107,13 +187,13 @@ void add_aisle_step(Builder& builder, std::size_t spoke, std::size_t row) {
     const float rise = (builder.plan.rows[row + 1].floor - here.floor) / 2;
     const glm::vec2 outward = builder.plan.spokes[spoke].outward;
     const glm::vec2 side = aisle_width / 2 * glm::vec2(outward.y, -outward.x);
-    const glm::vec2 front = builder.plan.spokes[spoke].at(here.offset + builder.plan.room.depth / 2);
-    const glm::vec2 back = builder.plan.spokes[spoke].at(here.offset + builder.plan.room.depth);
+    const float middle = here.offset + builder.plan.room.depth / 2, end = here.offset + builder.plan.room.depth;
+    const glm::vec2 front = builder.plan.spokes[spoke].at(middle), back = builder.plan.spokes[spoke].at(end);
     const float top = here.floor + rise;
     builder.quad(lift(front + side, here.floor), lift(front - side, here.floor), lift(front - side, top),
-                 lift(front + side, top), riser_grey);
+                 lift(front + side, top), riser_grey, builder.light.of_aisle({middle, here.floor}, {middle, top}));
     builder.quad(lift(front + side, top), lift(front - side, top), lift(back - side, top), lift(back + side, top),
-                 aisle_grey);
+                 aisle_grey, builder.light.of_aisle({middle, top}, {end, top}));
 }
 
 // From one row's tread up to the next: a riser, or the walkway and wall between the tiers with a doorway.
@@ -181,8 +261,7 @@ void add_facade(Builder& builder, std::size_t section, float top) {
 void add_back(Builder& builder, std::size_t section) {
     const StadiumPlan& plan = builder.plan;
     const Row& last = plan.rows.back();
-    constexpr float thickness = 0.3f;  // [m]
-    const float inner = plan.outer_offset - thickness, top = last.floor + rim_above_last_row;
+    const float inner = plan.outer_offset - rim_thickness, top = last.floor + rim_above_last_row;
     builder.sweep(section, {last.offset + plan.room.depth, last.floor}, {inner, last.floor}, tread_grey);
     builder.sweep(section, {inner, last.floor}, {inner, top}, wall_grey);
     builder.sweep(section, {inner, top}, {plan.outer_offset, top}, coping);
@@ -191,11 +270,10 @@ void add_back(Builder& builder, std::size_t section) {
 
 // The canopy: top, underside, both edges.
 void add_roof(Builder& builder, std::size_t section) {
-    constexpr float thickness = 0.6f;  // [m]
     const Roof& roof = builder.plan.roof;
     const Corner inner_top{roof.inner_offset, roof.inner_height}, outer_top{roof.outer_offset, roof.outer_height};
-    const Corner inner{roof.inner_offset, roof.inner_height - thickness};
-    const Corner outer{roof.outer_offset, roof.outer_height - thickness};
+    const Corner inner{roof.inner_offset, roof.inner_height - roof_thickness};
+    const Corner outer{roof.outer_offset, roof.outer_height - roof_thickness};
     builder.sweep(section, inner, inner_top, roof_white);
     builder.sweep(section, inner_top, outer_top, roof_white);
     builder.sweep(section, outer_top, outer, roof_white);
@@ -262,7 +340,7 @@ void add_section(Builder& builder, std::size_t section) {
 }  // namespace
 
 StaticMesh build_structure(const StadiumPlan& plan) {
-    Builder builder{{}, plan};
+    Builder builder{{}, plan, SectionLight(plan)};
     const std::size_t sections = plan.spokes.size();
     const std::size_t sectors = std::min(sections, target_sectors);
     for (std::size_t sector = 0; sector < sectors; ++sector) {

@@ -365,7 +365,7 @@ private:
             std::array<glm::dvec3, 3> at;
             for (std::size_t k = 0; k < 3; ++k) at[k] = glm::dvec3(corner[k]->position) - camera_.position;
             const bool is_ground = corner[2]->color.a == static_cast<std::uint8_t>(scene::Surface::ground);
-            const glm::dvec3 painted = stored(linear(corner[2]->color) * light_on(corner[2]->normal));
+            const glm::dvec3 painted = stored(linear(corner[2]->color) * light_on(corner[2]->normal, corner[2]->open));
             triangle(at, false, [&](const Spot& spot) {
                 if (!is_ground) return Shade::exactly(painted);
                 const auto xz = [&](const glm::dvec3& by) {

@@ -93,9 +93,9 @@ Hull of_one(const glm::dvec3& color) {
 
 }  // namespace
 
-glm::dvec3 light_on(const glm::dvec3& normal) {
+glm::dvec3 light_on(const glm::dvec3& normal, double open) {
     const double upward = (1 + normal.y) / 2;
-    return upward * from_sky + (1 - upward) * from_ground + std::max(glm::dot(normal, to_sun), 0.0) * sunlight;
+    return open * (upward * from_sky + (1 - upward) * from_ground) + std::max(glm::dot(normal, to_sun), 0.0) * sunlight;
 }
 
 glm::dvec3 stored(const glm::dvec3& linear) {

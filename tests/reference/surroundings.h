@@ -7,8 +7,8 @@
 
 namespace reference {
 
-// Linear light on a surface with this unit normal, in the open.
-glm::dvec3 light_on(const glm::dvec3& normal);
+// Linear light on a surface with this unit normal; `open`: the share that it gets of what comes from above and below.
+glm::dvec3 light_on(const glm::dvec3& normal, double open = 1);
 
 // Linear light to a stored colour [0, 255]; the picture's curve is a square root.
 glm::dvec3 stored(const glm::dvec3& linear);

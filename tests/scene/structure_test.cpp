@@ -27,6 +27,7 @@ constexpr float seat_height = 0.45f;  // [m] above the row's floor
 struct Triangle {
     glm::vec3 a, b, c, normal;
     glm::u8vec4 color;
+    float open;
 };
 
 double luma(glm::u8vec4 color) {
@@ -48,7 +49,7 @@ struct Stadium {
         for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
             const StaticVertex &a = mesh.vertices[mesh.indices[i]], &b = mesh.vertices[mesh.indices[i + 1]],
                                &c = mesh.vertices[mesh.indices[i + 2]];
-            triangles.push_back({a.position, b.position, c.position, a.normal, a.color});
+            triangles.push_back({a.position, b.position, c.position, a.normal, a.color, a.open});
         }
     }
     static bool is_ground(const Triangle& t) { return t.color.w == static_cast<int>(scene::Surface::ground); }
@@ -371,6 +372,45 @@ TEST(Benches, AreUnderEverySeatAndColouredInBlocks) {
         EXPECT_EQ((shades[{5, 0}]), (shades[{5, 6}]));
         EXPECT_EQ((shades[{6, 0}]), (shades[{5, 7}]));
     }
+}
+
+// ---- How much light from around reaches it ----
+
+TEST(Openness, IsAShareAndWholeOfWhatStandsFree) {
+    for (const std::int64_t people : sizes) {
+        float least = 1;
+        for (const Triangle& t : stadium(people).triangles) {
+            EXPECT_GT(t.open, 0.05f);
+            EXPECT_LE(t.open, 1.0f);
+            least = std::min(least, t.open);
+            EXPECT_TRUE(t.open == 1.0f || !Stadium::is_ground(t));
+        }
+        EXPECT_LT(least, 0.5f) << "nothing is dark";
+    }
+}
+
+TEST(Openness, IsLessBetweenRowsThanBeforeThemAndLeastUnderTheRoof) {
+    const Stadium& of = stadium(45'000);
+    ASSERT_TRUE(of.has_roof());
+    const Footing footing(of);
+    // Of a bench, and of the tread before it, by row; sections are alike.
+    std::map<int, std::pair<float, float>> rows;
+    for (const scene::Seat& seat : of.plan.seats) {
+        const glm::vec3 ahead(std::sin(seat.yaw), 0, std::cos(seat.yaw));
+        const auto bench = footing.below(seat.position + glm::vec3(0, 1, 0));
+        const auto tread = footing.below(seat.position + 0.4f * ahead + glm::vec3(0, 0.2f, 0));
+        ASSERT_TRUE(bench && tread);
+        const std::pair found(bench->open, tread->open);
+        EXPECT_EQ(rows.try_emplace(seat.row, found).first->second, found);
+    }
+    const int last = static_cast<int>(of.plan.rows.size()) - 1, middle = static_cast<int>(of.plan.lower_rows) / 2;
+    EXPECT_LT(rows[middle].first, 0.75f);
+    EXPECT_LT(rows[middle].second, 0.6f);
+    EXPECT_LT(rows[last].first, 0.8f * rows[middle].first);
+    EXPECT_LT(rows[last].second, 0.9f * rows[middle].second);
+    // On the way up to the roof it only gets darker.
+    for (int row = static_cast<int>(of.plan.lower_rows) + 2; row <= last; ++row)
+        EXPECT_LE(rows[row].first, rows[row - 1].first + 0.02f) << row;
 }
 
 TEST(Benches, AreLeftOutOnTerraces) {
