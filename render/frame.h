@@ -36,6 +36,7 @@ struct Person {
     std::uint32_t pose;            // into the character's PoseTable
     std::uint32_t batch;           // people of one number are alike in all but instance, depth and points drawn by ones
     float depth;                   // [m] view depth of their middle, > 0
+    float shade_radius;            // [m] around their feet it is darker (render/contact_shade.h); 0: they sit
 };
 
 // People of a block of the crowd who are all drawn as one splat each, and none by oneself.

@@ -8,6 +8,8 @@
 #include <limits>
 #include <span>
 
+#include "render/contact_shade.h"
+
 namespace render {
 
 namespace {
@@ -378,6 +380,7 @@ Person Selector::choose(std::size_t person, float depth, const sfsm::Decision& d
     const scene::Action action = acts_.at(person, member, poses, due);
     const auto pose = static_cast<std::uint32_t>(poses.pose_at(action.clip, action.clip_tick));
     const Spot spot = spot_of(person, due);
+    const bool stands = crowd_.role[person] != scene::Role::spectator || !member.sits;
     seen.work += part.work;
     seen.work[sfsm::WorkKind::motion_update] += due > last_tick;
     seen.slowed |= period > 1;
@@ -390,7 +393,8 @@ Person Selector::choose(std::size_t person, float depth, const sfsm::Decision& d
             part.last_share,
             pose,
             kinds_[character].first_batch + choice * static_cast<std::uint32_t>(poses.pose_count) + pose,
-            depth};
+            depth,
+            stands ? contact_reach * crowd_.height[person] : 0.0f};
 }
 
 }  // namespace render

@@ -1,3 +1,7 @@
+#ifdef SHADED
+#include "contact_grid.glsl"
+in vec3 at;  // camera-relative [m]
+#endif
 in vec2 ground;  // world x, z [m]
 out vec4 color;
 
@@ -7,4 +11,7 @@ vec3 surface_at(vec2 p);
 void main() {
     set_pixel(dFdx(ground), dFdy(ground));
     color = vec4(sqrt(surface_at(ground) * daylight()), 1.0);
+#ifdef SHADED
+    color.rgb *= left_at(at);
+#endif
 }

@@ -96,6 +96,14 @@ vec4 box_min;   // [model units]; w: 1 = seen from both sides
 vec4 box_size;  // [model units]; w: side of a square as large as the silhouette
 BLOCK_END(Figure)
 
+// What shaders/contact_grid.glsl reads.
+CONSTANT contact_cells_binding = 0;
+CONSTANT contact_feet_binding = 1;
+BLOCK_BEGIN(ContactGrid, 2)
+vec4 corner_and_scale;  // x, z camera-relative [m]; cells a metre
+vec4 size;              // columns, rows
+BLOCK_END(ContactGrid)
+
 #ifdef __cplusplus
 #undef CONSTANT
 #undef BLOCK_BEGIN

@@ -6,6 +6,9 @@ layout(location = attribute_static_normal) in vec3 normal;
 layout(location = attribute_static_color) in vec4 vertex_color;
 layout(location = attribute_static_open) in float open;
 
+#ifdef SHADED
+out vec3 at;  // camera-relative [m]
+#endif
 #ifdef GROUND
 out vec2 ground;  // world x, z [m]
 #else
@@ -13,7 +16,11 @@ flat out vec3 surface_color;
 #endif
 
 void main() {
-    gl_Position = Frame.clip_from_camera_relative * vec4(world_position - Frame.camera_position.xyz, 1.0);
+    vec3 relative = world_position - Frame.camera_position.xyz;
+    gl_Position = Frame.clip_from_camera_relative * vec4(relative, 1.0);
+#ifdef SHADED
+    at = relative;
+#endif
 #ifdef GROUND
     ground = world_position.xz;
 #else

@@ -11,12 +11,14 @@ namespace render::gl {
 
 // Painted triangles and ground have programs of their own, so each sector's indices are parted by surface.
 Backdrop::Backdrop(const scene::StaticMesh& structure, const scene::Ground& ground)
-    : structure_program_(build_program("structure.vert", "structure.frag")),
+    : structure_programs_{build_program("structure.vert", "structure.frag"),
+                          build_program("structure.vert", "structure.frag", {"SHADED"})},
       sky_program_(build_program("sky.vert", "sky.frag")),
       array_(VertexArray::create()),
       empty_array_(VertexArray::create()) {
     if (!ground.shader.empty())
-        ground_program_ = build_program("structure.vert", "grounds/" + ground.shader, {"GROUND"});
+        ground_programs_ = {build_program("structure.vert", "grounds/" + ground.shader, {"GROUND"}),
+                            build_program("structure.vert", "grounds/" + ground.shader, {"GROUND", "SHADED"})};
     std::vector<std::uint32_t> indices;
     indices.reserve(structure.indices.size());
     for (const scene::Surface surface : {scene::Surface::painted, scene::Surface::ground}) {
@@ -54,19 +56,21 @@ sfsm::Work Backdrop::work(const View& view) const {
     return work;
 }
 
-void Backdrop::draw(const View& view) const {
+void Backdrop::draw(const View& view, const ContactGrid& contact) const {
     glBindVertexArray(array_.name());
-    draw_sectors(view, structure_program_, painted_);
-    draw_sectors(view, ground_program_, ground_);
+    draw_sectors(view, contact, structure_programs_, painted_);
+    draw_sectors(view, contact, ground_programs_, ground_);
     draw_sky();
 }
 
-void Backdrop::draw_sectors(const View& view, const Program& program, const std::vector<SectorRange>& sectors) const {
-    glUseProgram(program.name());
-    for (const SectorRange& sector : sectors)
-        if (overlap(view, sector.box) != Overlap::outside)
-            glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(sector.index_count), GL_UNSIGNED_INT,
-                           reinterpret_cast<const void*>(sizeof(std::uint32_t) * std::uintptr_t{sector.first_index}));
+void Backdrop::draw_sectors(const View& view, const ContactGrid& contact, const Programs& programs,
+                            const std::vector<SectorRange>& sectors) const {
+    for (const SectorRange& sector : sectors) {
+        if (overlap(view, sector.box) == Overlap::outside) continue;
+        glUseProgram(contact.touches(view, sector.box) ? programs.shaded.name() : programs.plain.name());
+        glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(sector.index_count), GL_UNSIGNED_INT,
+                       reinterpret_cast<const void*>(sizeof(std::uint32_t) * std::uintptr_t{sector.first_index}));
+    }
 }
 
 void Backdrop::draw_sky() const {

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "render/gl/contact_grid.h"
 #include "render/gl/objects.h"
 #include "render/view.h"
 #include "scene/ground.h"
@@ -19,7 +20,8 @@ public:
     sfsm::Work work(const View& view) const;
 
     // After the people, whose depths hide most of it: the costliest pixels (ground, sky) come last.
-    void draw(const View& view) const;
+    // Darkened by `contact`, which is filled for this view.
+    void draw(const View& view, const ContactGrid& contact) const;
 
 private:
     struct SectorRange {
@@ -27,10 +29,17 @@ private:
         std::uint32_t first_index, index_count;
     };
 
-    void draw_sectors(const View& view, const Program& program, const std::vector<SectorRange>& sectors) const;
+    // One program for sectors where people darken something, which has that to look for, and one for the others.
+    struct Programs {
+        Program plain, shaded;
+    };
+
+    void draw_sectors(const View& view, const ContactGrid& contact, const Programs& programs,
+                      const std::vector<SectorRange>& sectors) const;
     void draw_sky() const;
 
-    Program structure_program_, ground_program_, sky_program_;
+    Programs structure_programs_, ground_programs_;
+    Program sky_program_;
     Buffer vertices_, indices_;
     VertexArray array_, empty_array_;
     std::vector<SectorRange> painted_, ground_;

@@ -17,6 +17,7 @@ namespace {
 static_assert(offsetof(FrameBlock, camera_position) == 64 && offsetof(FrameBlock, splat) == 272 &&
               sizeof(FrameBlock) == 288);
 static_assert(offsetof(FigureBlock, box_size) == 16 && sizeof(FigureBlock) == 32);
+static_assert(offsetof(ContactGridBlock, size) == 16 && sizeof(ContactGridBlock) == 32);
 
 // Set-up must have left no error behind; memory is the one that a user can do something about.
 void check_for_errors() {
@@ -113,7 +114,8 @@ void Renderer::draw(const Frame& frame) {
 
     draw_people();
     far_.draw(frame);
-    backdrop_.draw(frame.view);
+    contact_.fill(frame);
+    backdrop_.draw(frame.view, contact_);
 }
 
 void Renderer::upload_frame(const View& view, double splat_size) {

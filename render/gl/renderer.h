@@ -11,6 +11,7 @@
 #include "render/batches.h"
 #include "render/frame.h"
 #include "render/gl/backdrop.h"
+#include "render/gl/contact_grid.h"
 #include "render/gl/figure_drawer.h"
 #include "render/gl/objects.h"
 #include "render/gl/splats.h"
@@ -55,6 +56,7 @@ private:
     void draw_people() const;
 
     Backdrop backdrop_;
+    ContactGrid contact_;
     std::optional<native::Occluder> occluder_;
     std::vector<std::unique_ptr<FigureDrawer>> drawers_;  // by representation
     FarDrawer far_;

@@ -322,10 +322,10 @@ const Cover* CoverTile::pixel_row(int y) {
     return kept;
 }
 
-void CoverTile::resolve(Plane<std::uint32_t>& out) {
+void CoverTile::resolve(const TileColors& colors, Plane<std::uint32_t>& out) {
     const Tile& tile = grid_.tile;
     for (int y = tile.y0; y < tile.y1; ++y) HWY_DYNAMIC_DISPATCH(ResolveRow)
-    (pixel_row(y), behind_->color.row(y) + tile.x0, out.row(y) + tile.x0, tile.x1 - tile.x0);
+    (pixel_row(y), colors.row(y - tile.y0), out.row(y) + tile.x0, tile.x1 - tile.x0);
 }
 
 }  // namespace render::native

@@ -6,6 +6,7 @@
 
 #include "render/native/cell_grid.h"
 #include "render/native/cell_limits.h"
+#include "render/native/contact_tile.h"
 #include "render/native/cover_cells.h"
 #include "render/native/near_layer.h"
 #include "render/native/picture.h"
@@ -44,8 +45,8 @@ public:
     // Lays the near layer behind what is there, once.
     void lay_near();
 
-    // Puts the tile into the picture: the backdrop shows through where nobody covers it.
-    void resolve(Plane<std::uint32_t>& out);
+    // Puts the tile into the picture: where nobody covers them, the colours of what is behind show through.
+    void resolve(const TileColors& colors, Plane<std::uint32_t>& out);
 
 private:
     void find_columns();

@@ -64,7 +64,7 @@ Surroundings Renderer::begin(const View& view) {
 }
 
 bool Renderer::is_drawn_already(const Frame& frame) const {
-    static_assert(sizeof(Person) == sizeof(Instance) + 32);  // nothing in it but what is compared
+    static_assert(sizeof(Person) == sizeof(Instance) + 36);  // nothing in it but what is compared
     return has_picture_ && frame.splat_size == drawn_splat_size_ && frame.people.size() == drawn_.size() &&
            std::memcmp(frame.people.data(), drawn_.data(), drawn_.size() * sizeof(Person)) == 0 &&
            frame.far_blocks == drawn_far_;
@@ -76,6 +76,7 @@ void Renderer::draw(const Frame& frame) {
     triangles_.prepare(frame.view, near_people_);
     points_.prepare(frame.view, frame.splat_size, point_people_);
     prepare_far(frame);
+    find_contact_shades(frame, shades_);
     fill_lists();
     for_each_tile(grid_.count(), [&](std::size_t tile) { draw_tile(tile); });
     drawn_ = frame.people;
@@ -127,6 +128,9 @@ void Renderer::fill_lists() {
     near_lists_.fill(grid_, triangles_.bounds());
     point_lists_.fill(grid_, points_.bounds());
     far_lists_.fill(grid_, far_.bounds());
+    shade_bounds_.clear();
+    for (const ContactShade& shade : shades_) shade_bounds_.push_back(bounds_of(view_, shade));
+    shade_lists_.fill(grid_, shade_bounds_);
 }
 
 void Renderer::draw_tile(std::size_t index) {
@@ -135,7 +139,7 @@ void Renderer::draw_tile(std::size_t index) {
     Easel& easel = easels_.local();
     const float far_end = draw_near(index, easel);  // 0: nobody is near
     const std::span<const std::uint32_t> far = far_lists_.of(index);
-    if (others.empty() && far.empty() && far_end == 0) return show_backdrop(tile);
+    if (others.empty() && far.empty() && far_end == 0) return show(tile, shade_backdrop(index, easel));
     easel.cover.begin(tile, behind_, points_.cell(), far_end > 0 ? &easel.near : nullptr);
     if (far_end > 0) {
         // Who may be in front of somebody near comes before them and, for what is behind, once more after them.
@@ -149,7 +153,7 @@ void Renderer::draw_tile(std::size_t index) {
         others = others.subspan(mixed);
     }
     draw_others(others, far, easel);
-    easel.cover.resolve(picture_);
+    easel.cover.resolve(shade_backdrop(index, easel), picture_);
 }
 
 // By depth.
@@ -171,9 +175,14 @@ void Renderer::draw_others(std::span<const std::uint32_t> people, std::span<cons
     while (!far.empty()) draw_block();
 }
 
-void Renderer::show_backdrop(const Tile& tile) {
+// With the shade of who stands there. It isn't painted into what is behind, which is kept while they move.
+TileColors Renderer::shade_backdrop(std::size_t index, Easel& easel) const {
+    return easel.contact.darken(view_, grid_.tile(index), behind_, shades_, shade_bounds_, shade_lists_.of(index));
+}
+
+void Renderer::show(const Tile& tile, const TileColors& colors) {
     for (int y = tile.y0; y < tile.y1; ++y)
-        std::copy_n(behind_.color.row(y) + tile.x0, tile.x1 - tile.x0, picture_.row(y) + tile.x0);
+        std::copy_n(colors.row(y - tile.y0), tile.x1 - tile.x0, picture_.row(y) + tile.x0);
 }
 
 // Returns how far back [m] they reach; 0: there is nobody.

@@ -12,7 +12,9 @@
 #include <vector>
 
 #include "figures/figure.h"
+#include "render/contact_shade.h"
 #include "render/native/backdrop.h"
+#include "render/native/contact_tile.h"
 #include "render/native/cover.h"
 #include "render/native/far_people.h"
 #include "render/native/near_layer.h"
@@ -50,6 +52,7 @@ private:
         CoverTile cover;
         NearLayer near;
         PatchRoom room;
+        ContactTile contact;
     };
 
     bool is_drawn_already(const Frame& frame) const;
@@ -58,7 +61,8 @@ private:
     void sort_by_depth(std::vector<const Person*>& people);
     void fill_lists();
     void draw_tile(std::size_t index);
-    void show_backdrop(const Tile& tile);
+    TileColors shade_backdrop(std::size_t index, Easel& easel) const;
+    void show(const Tile& tile, const TileColors& colors);
     float draw_near(std::size_t tile, Easel& easel) const;
     static Patch patch_for(const Rect& cells, Easel& easel);
     void draw_others(std::span<const std::uint32_t> people, std::span<const std::uint32_t> far, Easel& easel) const;
@@ -84,7 +88,9 @@ private:
     std::vector<FarBlock> drawn_far_;
     std::vector<const Person*> near_people_, point_people_, unsorted_;
     std::vector<std::uint32_t> counts_;  // of the sort
-    TileLists near_lists_, point_lists_, far_lists_;
+    std::vector<ContactShade> shades_;
+    std::vector<Rect> shade_bounds_;
+    TileLists near_lists_, point_lists_, far_lists_, shade_lists_;
     tbb::enumerable_thread_specific<Easel> easels_;
 };
 

@@ -109,16 +109,31 @@ INSTANTIATE_TEST_SUITE_P(Files, NativePortrait,
                          testing::Values("CesiumMan/CesiumMan.glb", "Fox/Fox.glb", "KayKitMage/Mage.glb",
                                          "QuaterniusKnight/KnightCharacter.glb", "RaylibRobot/robot.glb"));
 
+constexpr std::int64_t tick = 1234;
+
+reference::Stadium& stadium() {
+    static const tests::SmallScene scene(600, 2);
+    static reference::Stadium stadium(scene, 320, 180, way);
+    return stadium;
+}
+
 class NativeStadiumPicture : public testing::TestWithParam<const char*> {
 protected:
-    static constexpr std::int64_t tick = 1234;
-
     reference::Frame shoot(const Decision& decision) {
-        static const tests::SmallScene scene(600, 2);
-        static reference::Stadium stadium(scene, 320, 180, way);
-        return stadium.shoot(stadium.preset(GetParam()), decision, tick);
+        return stadium().shoot(stadium().preset(GetParam()), decision, tick);
     }
 };
+
+// The shade around who runs and walks, on the track.
+TEST(NativeFeet, AreTheReferences) {
+    for (const scene::CameraPose& pose : stadium().at_feet(tick)) {
+        const reference::Frame frame = stadium().shoot(pose, {}, tick);
+        const reference::Frame without = stadium().shoot(pose, {}, tick, false);
+        EXPECT_GT(reference::compare(without.drawn, without.expected).wrong, 200) << "nothing is shown";
+        expect_alike(frame.drawn, frame.expected, {1.0 / 10000, 1.0 / 2000},
+                     "feet at " + std::to_string(pose.target.x));
+    }
+}
 
 TEST_P(NativeStadiumPicture, IsTheReferences) {
     // Seats that are far are thinner than it is between the places that the reference looks at, and any of four samples

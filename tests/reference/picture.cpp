@@ -28,6 +28,7 @@ constexpr double edge_on = 0.02;
 struct Behind {
     Picture picture;
     std::vector<double> depth;  // [m] by pixel, then place
+    std::vector<double> left;   // the same, of the colour as it is stored, where people stand around
 };
 
 // Two passes over everything: first how near the nearest is in each place, then who is that near.
@@ -51,7 +52,7 @@ public:
             if (scene_.structure) draw_structure();
         }
         draw_sky();
-        return {std::move(picture_), std::move(nearest_)};
+        return {std::move(picture_), std::move(nearest_), {}};
     }
 
     Picture draw_people(const Behind& behind) {
@@ -407,9 +408,10 @@ private:
                 const std::size_t there = static_cast<std::size_t>(y / samples_) * behind.picture.width + x / samples_;
                 if (collecting_) picture_.sky[pixel] = picture_.shades[pixel].empty() && behind.picture.sky[there];
                 for (std::size_t place = 0; place < places.size(); ++place)
-                    for (Shade shade : behind.picture.shades[there]) {
-                        shade.best = behind.picture.colors[there];
-                        put(x, y, place, behind.depth[there * places.size() + place], true, [&] { return shade; });
+                    for (const Shade& shade : behind.picture.shades[there]) {
+                        const double left = behind.left[there * places.size() + place];
+                        const Shade shown{left * shade.low, left * shade.high, left * behind.picture.colors[there]};
+                        put(x, y, place, behind.depth[there * places.size() + place], true, [&] { return shown; });
                     }
             }
     }
@@ -478,7 +480,7 @@ Behind draw_smoothly(const Scene& scene) {
             fine.shades.push_back(from.shades[pixel]);
             fine.sky.push_back(from.sky[pixel]);
         }
-    Behind behind{filtered(fine, 2), {}};
+    Behind behind{filtered(fine, 2), {}, {}};
     for (std::size_t i = 0; i < of[0].depth.size(); ++i) {
         std::array<double, 4> depths = {of[0].depth[i], of[1].depth[i], of[2].depth[i], of[3].depth[i]};
         std::sort(depths.begin(), depths.end());
@@ -487,11 +489,41 @@ Behind draw_smoothly(const Scene& scene) {
     return behind;
 }
 
+// Where people stand: a soft dark round, as large as they say, weaker where it is small in the picture.
+void darken(const Scene& scene, Behind& behind) {
+    constexpr double strength = 0.55, whole = 4, least = 1.5;  // [px]
+    struct Round {
+        glm::dvec3 middle;
+        double radius, strength;
+    };
+    const Camera& camera = scene.camera;
+    std::vector<Round> rounds;
+    for (const Person& person : scene.people) {
+        const double depth = std::max(glm::dot(person.origin - camera.position, camera.forward), Camera::near);
+        const double pixels = person.shade * camera.pixels_per_metre(depth);
+        const double share = std::clamp((pixels - least) / (whole - least), 0.0, 1.0);
+        if (person.shade > 0 && share > 0) rounds.push_back({person.origin, person.shade, strength * share});
+    }
+    behind.left.assign(behind.depth.size(), 1);
+    for (std::size_t i = 0; i < behind.depth.size(); ++i) {
+        if (behind.depth[i] == INFINITY) continue;
+        const std::size_t pixel = i / places.size(), width = static_cast<std::size_t>(camera.width);
+        const glm::dvec2 at = glm::dvec2(pixel % width, pixel / width) + 0.5 + places[i % places.size()];
+        const glm::dvec3 there = camera.position + behind.depth[i] * camera.ray(at.x, at.y);
+        for (const Round& round : rounds) {
+            const double out = glm::length(there - round.middle) / round.radius;
+            if (out < 1) behind.left[i] *= 1 - round.strength * std::pow(1 - out * out, 2);
+        }
+    }
+}
+
 }  // namespace
 
 Picture draw(const Scene& scene) {
-    if (scene.samples == 1) return Canvas(scene).draw_people(Canvas(scene).draw_behind());
-    return filtered(Canvas(scene, scene.samples).draw_people(draw_smoothly(scene)), scene.samples);
+    Behind behind = scene.samples == 1 ? Canvas(scene).draw_behind() : draw_smoothly(scene);
+    darken(scene, behind);
+    if (scene.samples == 1) return Canvas(scene).draw_people(behind);
+    return filtered(Canvas(scene, scene.samples).draw_people(behind), scene.samples);
 }
 
 render::Image Picture::image() const {

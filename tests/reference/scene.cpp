@@ -149,6 +149,8 @@ std::vector<Person> people_of(const scene::Crowd& crowd, std::span<const scene::
         person.yaw = placement.yaw;
         person.scale = scale;
         person.palette = crowd.palette[i];
+        const bool sits = crowd.role[i] == scene::Role::spectator && cast[character].sits;
+        person.shade = sits ? 0 : 0.27 * crowd.height[i];
         person.points = points_for(figure, scale * camera.pixels_per_metre(depth), decision);
         people.push_back(person);
     }

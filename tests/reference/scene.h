@@ -77,6 +77,7 @@ struct Person {
     double scale = 1;       // [m / model unit]
     scene::Palette palette{};
     std::size_t points = 0;  // how many; 0: triangles
+    double shade = 0;        // [m] around their origin what they stand on is darker; 0: they sit
 };
 
 struct Scene {

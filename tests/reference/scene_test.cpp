@@ -104,6 +104,15 @@ TEST_F(StadiumPicture, IsTheReferencesWhereTheGroundIsNear) {
     }
 }
 
+// Where athletes stand on it, their shade and all.
+TEST_F(StadiumPicture, IsTheReferencesAroundFeet) {
+    for (const scene::CameraPose& pose : stadium_->at_feet(tick)) {
+        expect_alike(pose, {}, "feet at " + std::to_string(pose.target.x));
+        const reference::Frame without = stadium_->shoot(pose, {}, tick, false);
+        EXPECT_GT(reference::compare(without.drawn, without.expected).wrong, 200) << "nothing is shown";
+    }
+}
+
 // Up to the sun, down to the ground, along it, and from a pixel's width of field to nearly all that is in front.
 TEST_F(StadiumPicture, IsTheReferencesWhereverTheCameraLooks) {
     const glm::dvec3 pitch(3, 1.7, 9), above(-20, 120, 10);

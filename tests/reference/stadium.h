@@ -21,7 +21,10 @@ class Stadium {
 public:
     Stadium(const tests::SmallScene& scene, int width, int height, const figures::Way& way = figures::by_opengl());
 
-    Frame shoot(const scene::CameraPose& pose, const sfsm::Decision& decision, std::int64_t tick);
+    // `darken`: whether the reference has people darken what they stand on.
+    Frame shoot(const scene::CameraPose& pose, const sfsm::Decision& decision, std::int64_t tick, bool darken = true);
+    // From a few metres at some of those on the track, at that time.
+    std::vector<scene::CameraPose> at_feet(std::int64_t tick) const;
     scene::CameraPose preset(const char* name, double seconds = 0) const {
         return scene::aim_cameras(scene_.plan).named(name).at(seconds);
     }

@@ -58,7 +58,7 @@ render::Frame frame_of(std::span<const Person> people, std::span<const Model* co
         const auto [representation, level] = level_of((*of)->product(), person.points, way);
         const std::uint32_t batch = frame.batch_numbers++;
         frame.people.push_back({instance, character, representation, level.first, level.count, 1.0f, pose, batch,
-                                view.depth(instance.position)});
+                                view.depth(instance.position), static_cast<float>(person.shade)});
     }
     return frame;
 }

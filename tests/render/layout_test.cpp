@@ -29,6 +29,7 @@ GLint offset_in(const render::gl::Program& program, const std::string& member) {
 }
 
 TEST_F(Layout, UniformBlocksHaveTheOffsetsOfTheirStructs) {
+    using render::ContactGridBlock;
     using render::FigureBlock;
     using render::FrameBlock;
     const Member members[] = {
@@ -48,11 +49,14 @@ TEST_F(Layout, UniformBlocksHaveTheOffsetsOfTheirStructs) {
         {"FrameBlock.splat", offsetof(FrameBlock, splat)},
         {"FigureBlock.box_min", offsetof(FigureBlock, box_min)},
         {"FigureBlock.box_size", offsetof(FigureBlock, box_size)},
+        {"ContactGridBlock.corner_and_scale", offsetof(ContactGridBlock, corner_and_scale)},
+        {"ContactGridBlock.size", offsetof(ContactGridBlock, size)},
     };
     const render::gl::Program programs[] = {
         render::gl::build_program("person_points.vert", "person_points.frag"),
         render::gl::build_program("structure.vert", "grounds/stadium.glsl", {"GROUND"}),
         render::gl::build_program("sky.vert", "sky.frag"),
+        render::gl::build_program("structure.vert", "structure.frag", {"SHADED"}),
     };
     for (const Member& member : members) {
         bool used = false;

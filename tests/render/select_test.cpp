@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
 #include <set>
 #include <tuple>
 
 #include "render/batches.h"
+#include "render/contact_shade.h"
 #include "sfsm/prices.h"
 #include "tests/render/drawn_points.h"
 #include "tests/render/small_scene.h"
@@ -44,7 +46,7 @@ Frame select_once(const render::View& view, const Decision& decision, std::int64
 }
 
 bool same_bits(const Frame& a, const Frame& b) {
-    static_assert(sizeof(render::Person) == sizeof(render::Instance) + 8 * 4, "no padding: bytes can be compared");
+    static_assert(sizeof(render::Person) == sizeof(render::Instance) + 9 * 4, "no padding: bytes can be compared");
     return a.people.size() == b.people.size() &&
            std::memcmp(a.people.data(), b.people.data(), a.people.size() * sizeof(render::Person)) == 0 &&
            a.work == b.work;
@@ -113,6 +115,16 @@ std::int64_t people_far_away(const Frame& frame) {
         people += all.count;
     }
     return people;
+}
+
+TEST(Selection, WhoStandsDarkensWhatTheyStandOnAndWhoSitsDoesNot) {
+    const scene::Crowd& crowd = small_scene().crowd;
+    std::map<float, int> expected, found;
+    for (std::size_t person = 0; person < crowd.size(); ++person)
+        ++expected[crowd.role[person] == scene::Role::spectator ? 0 : render::contact_reach * crowd.height[person]];
+    for (const render::Person& person : select_once(view_of("remote"), {}).people) ++found[person.shade_radius];
+    EXPECT_GT(expected.size(), 5u) << "nobody stands";
+    EXPECT_EQ(found, expected) << "everybody is in view";
 }
 
 TEST(Selection, WorkIsTheSumOverItsPeople) {

@@ -1,0 +1,22 @@
+#include "render/contact_shade.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace render {
+
+void find_contact_shades(const Frame& frame, std::vector<ContactShade>& out) {
+    out.clear();
+    for (const Person& person : frame.people) {
+        const float radius = person.shade_radius;
+        if (!(radius > 0)) continue;
+        const glm::vec3 feet = person.instance.position;
+        const float pixels = radius * frame.view.pixels_per_metre(std::max(frame.view.depth(feet), near_plane));
+        const float share = std::min((pixels - contact_least_px) / (contact_whole_px - contact_least_px), 1.0f);
+        if (!(share > 0)) continue;
+        const float peak = std::sqrt(contact_strength * share);
+        out.push_back({feet, radius, peak, peak / (radius * radius)});
+    }
+}
+
+}  // namespace render
