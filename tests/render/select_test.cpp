@@ -443,17 +443,17 @@ TEST(Selection, OfFarBlocksDoesNotDependOnTheFramesBefore) {
         by.survey(far_views[0], tick);
         const Frame& frame = by.select(points_of(4, 1e6), tick - 1);
         EXPECT_FALSE(frame.far_blocks.empty());
-        std::vector<std::pair<render::FarBlock, std::vector<std::uint8_t>>> blocks;
+        std::vector<std::pair<render::FarBlock, std::vector<int>>> blocks;
         for (const render::FarBlock& block : frame.far_blocks) {
             const scene::CrowdBlock& all = small_scene().crowd.blocks[block.block];
             const std::uint8_t* first = frame.far_people.keys + all.first;
             EXPECT_LE(block.tick, tick);
             EXPECT_GT(block.tick, tick - 4);
-            blocks.emplace_back(block, std::vector<std::uint8_t>(first, first + all.count));
+            blocks.emplace_back(block, std::vector<int>(first, first + all.count));
         }
         return blocks;
     };
-    std::set<std::vector<std::uint8_t>> different;
+    std::set<std::vector<int>> different;
     for (const std::int64_t tick : {100, 101, 102, 5000, 7, 103, 104, 250'000'000}) {
         Selector fresh(small_scene().crowd, small_scene().cast, small_scene().figures());
         const auto keys = keys_at(selector, tick);
