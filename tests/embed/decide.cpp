@@ -36,7 +36,7 @@ sfsm::Work work_of(const sfsm::Decision& decision) {
 
 // [ms]; sums of eighths, which no compiler can round in another way.
 double cost_of(const sfsm::Work& work) {
-    constexpr std::array<std::int64_t, sfsm::work_kinds> in_an_eighth{2000, 25000, 12500, 2500, 9000, 100000};
+    constexpr std::array<std::int64_t, sfsm::work_kinds> in_an_eighth{2000, 25000, 12500, 2500, 9000, 100000, 4000};
     std::int64_t eighths = 10;
     for (std::size_t kind = 0; kind < work.counts.size(); ++kind) eighths += work.counts[kind] / in_an_eighth[kind];
     return static_cast<double>(eighths) / 8;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "tests/reference/stadium.h"
+#include "tests/render/drawn_points.h"
 #include "tests/render/gl_test.h"
 
 namespace {
@@ -25,7 +26,9 @@ protected:
     }
     void draw_at(int width, int height) {
         static const tests::SmallScene scene(600);
-        stadium_ = std::make_unique<reference::Stadium>(scene, width, height);
+        // The reference knows everybody by name.
+        static const figures::Way one_by_one = tests::without_blocks(figures::by_opengl());
+        stadium_ = std::make_unique<reference::Stadium>(scene, width, height, one_by_one);
     }
     void TearDown() override { stadium_.reset(); }
 

@@ -366,17 +366,11 @@ sfsm::Forecast by_person(render::Forecaster& forecaster, const Frame& frame, flo
     return forecaster.finish(options.theta);
 }
 
-figures::Way without_blocks(figures::Way way) {
-    EXPECT_TRUE(way.representations.back().is_by_block);
-    way.representations = way.representations.first(way.representations.size() - 1);
-    return way;
-}
-
 // Blocks are a thirtieth of their distance deep, people's sizes those of the whole crowd: prices differ by a hundredth.
 TEST(Survey, BlocksThatAreFarAreWorthTheirPeople) {
     constexpr double block_error = 0.01;
     for (const figures::Way* drawing : {&figures::by_opengl(), &figures::natively()}) {
-        const figures::Way one_by_one = without_blocks(*drawing), *way = &one_by_one;
+        const figures::Way one_by_one = tests::without_blocks(*drawing), *way = &one_by_one;
         const render::SelectOptions options{.way = way};
         Selector selector(small_scene().crowd, small_scene().cast, small_scene().figures(), options);
         const auto staleness =
