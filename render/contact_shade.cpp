@@ -12,7 +12,7 @@ void find_contact_shades(const Frame& frame, std::vector<ContactShade>& out) {
         if (!(radius > 0)) continue;
         const glm::vec3 feet = person.instance.position;
         const float pixels = radius * frame.view.pixels_per_metre(std::max(frame.view.depth(feet), near_plane));
-        const float share = std::min((pixels - contact_least_px) / (contact_whole_px - contact_least_px), 1.0f);
+        const float share = contact_share(pixels);
         if (!(share > 0)) continue;
         const float peak = std::sqrt(contact_strength * share);
         out.push_back({feet, radius, peak, peak / (radius * radius)});

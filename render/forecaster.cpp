@@ -34,6 +34,17 @@ float Forecaster::demand_of(int bin) {
     return std::bit_cast<float>((static_cast<std::uint32_t>(bin + first_bin) << bin_shift) + half_a_bin);
 }
 
+// Where a bin's people are for a larger S.
+int Forecaster::asked(int bin, int shift) {
+    return std::clamp(bin - shift, 0, demand_bins - 1);
+}
+
+bool Forecaster::serves_block(std::size_t kind, float demand_at_unit_splat, double splat_size) const {
+    // Of steps it is a whole number.
+    const int shift = static_cast<int>(std::floor(2 * bins_per_octave * std::log2(splat_size) + 1e-6));
+    return demand_of(asked(bin_of(demand_at_unit_splat), shift)) <= kinds_[kind].choices.block_reach();
+}
+
 Forecaster::Forecaster(std::vector<Kind> kinds, const figures::Way& way, float density)
     : way_(&way),
       kinds_(std::move(kinds)),
@@ -141,21 +152,20 @@ void Forecaster::price_shapes_of(std::size_t kind) {
         sfsm::Step& out = shapes_[step];
         // S = 32 px is ten octaves of demand down.
         const int shift = (step - (shape_steps - 1)) * bins_per_shape_step + 10 * bins_per_octave;
-        const auto asked = [shift](int bin) { return std::clamp(bin - shift, 0, demand_bins - 1); };
         const auto add = [&](std::uint32_t choice, int bin, std::int64_t people) {
             const auto& [representation, level] = choices.all()[choice];
-            out.work += figures::part_of(level, demand_of(asked(bin))).work * people;
+            out.work += figures::part_of(level, demand_of(asked(bin, shift))).work * people;
             out.loss_px += static_cast<double>(people) *
                            way_->representations[representation].outline_px(out.setting, silhouettes_[bin]);
         };
-        while (step > 0 && first_alone < demand_bins && demand_of(asked(first_alone)) <= choices.block_reach())
+        while (step > 0 && first_alone < demand_bins && demand_of(asked(first_alone, shift)) <= choices.block_reach())
             for_each_share(kind, first_alone++, [&](int to, std::int32_t people) { drawn_alone_[to] -= people; });
         for (int bin = 0; bin < first_alone; ++bin)
             if (const std::int64_t people = people_of_blocks_[kind][bin]; people > 0)
-                add(choices.in_block_at(demand_of(asked(bin))), bin, people);
+                add(choices.in_block_at(demand_of(asked(bin, shift))), bin, people);
         for (int bin = 0; bin < demand_bins; ++bin)
             if (const std::int64_t people = drawn_alone_[bin]; people > 0)
-                add(step == 0 ? choices.exact() : choices_[kind][asked(bin)], bin, people);
+                add(step == 0 ? choices.exact() : choices_[kind][asked(bin, shift)], bin, people);
     }
 }
 

@@ -35,6 +35,8 @@ public:
     // `demand_at_unit_splat` is that of people of mean size; how sizes differ is the kind's own.
     void add_block(std::size_t kind, scene::Role role, std::int64_t people, float depth, float demand_at_unit_splat,
                    float pixels_per_metre);
+    // Whether people of a block, who ask for that at S = 1 px, are drawn as one at S > 0 [px]: what the steps foresee.
+    bool serves_block(std::size_t kind, float demand_at_unit_splat, double splat_size) const;
     // `theta` is equation 1's. Valid until the next begin().
     sfsm::Forecast finish(float theta);
 
@@ -50,6 +52,7 @@ private:
     void price_shapes_of(std::size_t kind);
     template <typename Visit>
     void for_each_share(std::size_t kind, int bin, Visit visit) const;
+    static int asked(int bin, int shift);
     static int bin_of(float demand);
     static float demand_of(int bin);
 

@@ -19,9 +19,9 @@ std::int16_t snorm16(float value) {
 }
 
 // A block is surveyed as one where its people are lower than this and its depth is less than this share of its
-// distance: every person then asks for what the middle one does, within an eighth, and few would be hidden alone.
-constexpr float small_height_px = 4.0f;
-constexpr float small_spread = 1.0f / 16;
+// distance: every person then asks for what the middle one does, within a quarter, and few would be hidden alone.
+constexpr float small_height_px = 9.0f;
+constexpr float small_spread = 1.0f / 8;
 
 }  // namespace
 
@@ -260,11 +260,11 @@ const Frame& Selector::select(const sfsm::Decision& decision, std::int64_t last_
 
 // Where one splat serves people of mean size of each kind.
 void Selector::find_far_blocks(const sfsm::Decision& decision) {
-    const auto splat_area = static_cast<float>(decision.splat_size * decision.splat_size);
     for (Seen& seen : seen_)
-        seen.is_far = seen.small && splat_area > 0 && std::ranges::all_of(groups_of(seen), [&](const Group& group) {
-                          return mean_demand_of(group) <= splat_area * kinds_[group.character].choices.block_reach();
-                      });
+        seen.is_far =
+            seen.small && decision.splat_size > 0 && std::ranges::all_of(groups_of(seen), [&](const Group& group) {
+                return forecaster_.serves_block(group.character, mean_demand_of(group), decision.splat_size);
+            });
 }
 
 // Each block's people have a place in the frame that is known beforehand: any thread may write them.

@@ -99,7 +99,7 @@ void FarDrawer::look_at_figures() {
 void FarDrawer::upload_crowd(const FarPeople& people) {
     crowd_ = people.crowd;
     std::vector<glm::vec3> centers;
-    for (const figures::Figure& figure : figures_) centers.push_back(native::far_center(*figure.poses));
+    for (const figures::Figure& figure : figures_) centers.push_back(native::far_shape(*figure.poses).center);
     std::vector<FarVertex> vertices(crowd_->size());
     for (std::size_t person = 0; person < vertices.size(); ++person) {
         const std::uint8_t character = crowd_->character[person];

@@ -56,16 +56,21 @@ void sum_up(std::vector<SeenPoint>& points, Leaning& leaning) {
 
 }  // namespace
 
-glm::vec3 far_center(const motion::PoseTable& poses) {
+FarShape far_shape(const motion::PoseTable& poses) {
     const std::vector<int> keys = figures::splat_keys(poses).poses;
     glm::dvec3 sum(0.0);
+    double squares = 0;
     for (const int pose : keys)
-        for (int point = 0; point < poses.point_count; ++point)
-            sum += glm::dvec3(motion::unpack_position(
-                poses.points[static_cast<std::size_t>(pose) * static_cast<std::size_t>(poses.point_count) +
-                             static_cast<std::size_t>(point)],
-                poses.box));
-    return glm::vec3(sum / static_cast<double>(keys.size() * static_cast<std::size_t>(poses.point_count)));
+        for (int i = 0; i < poses.point_count; ++i) {
+            const std::size_t point = static_cast<std::size_t>(pose) * static_cast<std::size_t>(poses.point_count) + i;
+            const glm::dvec3 at(motion::unpack_position(poses.points[point], poses.box));
+            sum += at;
+            squares += at.y * at.y;
+        }
+    const double count = static_cast<double>(keys.size()) * poses.point_count;
+    const glm::dvec3 center = sum / count;
+    return {glm::vec3(center),
+            static_cast<float>(std::sqrt(12.0 * std::max(0.0, squares / count - center.y * center.y)))};
 }
 
 FarLooks::FarLooks(const figures::Figure& figure, const SplatModel& model) {

@@ -29,8 +29,13 @@ inline constexpr float far_color_unit = 255 * 255 / 2;
 // Values of rows make up for what that lacks to 1.
 inline constexpr float far_color_share = far_color_unit / 32768.0f;
 
-// [model units] The middle of the surface, over all keys.
-glm::vec3 far_center(const motion::PoseTable& poses);
+// [model units] The surface over all keys: its middle, and the height of a box whose points would vary in height as its
+// do.
+struct FarShape {
+    glm::vec3 center;
+    float height;
+};
+FarShape far_shape(const motion::PoseTable& poses);
 
 // Light of red, green and blue by slot, as SplatModel::lights.
 using SlotLights = SplatModel::SlotLights;

@@ -12,6 +12,7 @@
 #include <bit>
 #include <cmath>
 
+#include "render/contact_shade.h"
 #include "render/native/cell_grid.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -29,14 +30,15 @@ constexpr int lanes = static_cast<int>(hn::MaxLanes(floats));
 
 // Some people of a block, as far as they touch a patch.
 struct Staged {
-    alignas(64) std::int32_t before[lanes],
-        behind[lanes];  // rows, on either side of the sun, as offsets into FarScene's
-    alignas(64) std::int32_t to_sun[lanes], around[lanes];  // between rows, 32767 = 1
+    // Rows, on either side of the sun, as offsets into FarScene's.
+    alignas(64) std::int32_t before[lanes], behind[lanes];
+    alignas(64) std::int32_t to_sun[lanes], around[lanes], up[lanes];  // between rows, 32767 = 1
     alignas(64) std::int32_t cell[lanes];  // of the first of their four cells, as an offset into a patch's
     // What the upper and the lower two of them get: in the low half the left one, 32767 = all.
     alignas(64) std::int32_t upper[lanes], lower[lanes];
     alignas(64) std::int32_t back[lanes];   // way back from the block's middle, 32767 = its reach
     alignas(64) std::int32_t steps[lanes];  // [1/8192 cell] that the largest silhouette covers
+    alignas(64) std::int32_t shade[lanes];  // [1/8192 cell] of black under them that is as dark as their shade
 };
 
 Float set(float value) {
@@ -56,9 +58,9 @@ struct Step {
     Int part;  // 32767 = 1
 };
 
-// Of a diamond's angle, among so many nodes around.
-Step step_of(Float angle, float nodes) {
-    const Float at = hn::Min(hn::Mul(angle, set(0.25f * nodes)), set(nodes - 0.0001f));
+// Of so many.
+Step step_of(Float value, Float steps_each, float steps) {
+    const Float at = hn::Min(hn::Mul(value, steps_each), set(steps - 0.0001f));
     const Int whole = hn::ConvertTo(ints, at);
     return {whole, hn::ConvertTo(ints, hn::Mul(hn::Sub(at, hn::ConvertTo(floats, whole)), set(32767.0f)))};
 }
@@ -67,10 +69,16 @@ Int floor_of(Float value) {
     return hn::ConvertTo(ints, hn::Floor(value));
 }
 
+// All of a person, or the upper or lower half.
+struct Part {
+    float quarters;  // of their height, down from the middle
+    float share;
+};
+
 // Stages `lanes` people from `person` on, of whom those from `first` on count; returns which of them touch the patch, a
 // bit each.
-std::uint32_t stage(const FarScene& scene, const FarBlockOnScreen& block, std::size_t first, std::size_t person,
-                    const Patch& patch, Staged& out) {
+std::uint32_t stage(const FarScene& scene, const FarBlockOnScreen& block, Part part, std::size_t first,
+                    std::size_t person, const Patch& patch, Staged& out) {
     const scene::Crowd& crowd = *scene.people.crowd;
     const hn::Rebind<std::uint8_t, Floats> bytes;
     const Int character = hn::PromoteTo(ints, hn::LoadU(bytes, &crowd.character[person]));
@@ -81,7 +89,8 @@ std::uint32_t stage(const FarScene& scene, const FarBlockOnScreen& block, std::s
     };
     const Int key =
         hn::Add(of_character(scene.first_key), hn::PromoteTo(ints, hn::LoadU(bytes, scene.people.keys + person)));
-    const Float scale = hn::Mul(hn::LoadU(floats, &crowd.height[person]), of_character(scene.metres));
+    const Float height = hn::LoadU(floats, &crowd.height[person]);
+    const Float scale = hn::Mul(height, of_character(scene.metres));
     const Int turn = hn::LoadU(ints, reinterpret_cast<const std::int32_t*>(scene.people.turns + person));
     const Float unit = set(1.0f / 32767.0f);
     const Float sine = hn::Mul(hn::ConvertTo(floats, hn::ShiftRight<16>(hn::ShiftLeft<16>(turn))), unit);
@@ -102,16 +111,18 @@ std::uint32_t stage(const FarScene& scene, const FarBlockOnScreen& block, std::s
     const Float depth = hn::Max(along(scene.forward), set(near_plane));
     const Float cells_per_metre = hn::Div(set(scene.cells_at_one_metre), depth);
     constexpr float steps_a_cell = 1 << cell_bits;
-    const auto place = [&](Float cells, float middle, int start) HWY_ATTR {
+    const auto place = [&](Float from_middle, float middle, int start) HWY_ATTR {
         constexpr float farthest = 1e6f;  // beyond every picture
-        const Float from = hn::Add(cells, set(middle - 0.5f));
+        const Float from = hn::Add(from_middle, set(middle - 0.5f));
         const Float clamped = hn::Max(hn::Min(from, set(farthest)), set(-farthest));
         return hn::Sub(floor_of(hn::Mul(clamped, set(steps_a_cell))), hn::Set(ints, start << cell_bits));
     };
     const Int x = place(hn::Mul(along(scene.right), cells_per_metre), scene.center[0], patch.x0);
-    const Int y = place(hn::Neg(hn::Mul(along(scene.up), cells_per_metre)), scene.center[1], patch.y0);
-    const auto within = [&](Int where, int cells) HWY_ATTR {
-        return hn::And(hn::Gt(where, hn::Set(ints, -1)), hn::Lt(where, hn::Set(ints, (cells - 1) << cell_bits)));
+    const Float cells = hn::Mul(cells_per_metre, scale);
+    const Float down = hn::Mul(hn::Mul(cells, of_character(scene.height)), set(0.25f * part.quarters * scene.up.y));
+    const Int y = place(hn::Sub(down, hn::Mul(along(scene.up), cells_per_metre)), scene.center[1], patch.y0);
+    const auto within = [&](Int where, int size) HWY_ATTR {
+        return hn::And(hn::Gt(where, hn::Set(ints, -1)), hn::Lt(where, hn::Set(ints, (size - 1) << cell_bits)));
     };
     // The last ones of the crowd are read together with some before them.
     const auto number = [&](std::size_t of) HWY_ATTR {
@@ -144,19 +155,34 @@ std::uint32_t stage(const FarScene& scene, const FarBlockOnScreen& block, std::s
     hn::Store(shares(part_of(y)), ints, out.lower);
     const Float back = hn::Mul(hn::Sub(depth, set(block.depth)), set(32767.0f / block.reach));
     hn::Store(hn::ConvertTo(ints, hn::Max(hn::Min(back, set(32767.0f)), set(-32767.0f))), ints, out.back);
-    const Float cells = hn::Mul(cells_per_metre, scale);
+    // Off the picture's middle a silhouette's image is larger, as it is cast aslant.
+    const auto square = [](Float v) HWY_ATTR { return hn::Mul(v, v); };
+    const Float out_square = hn::Add(square(at[0]), square(at[2]));
+    const Float aslant = hn::Div(hn::Sqrt(hn::Add(out_square, square(at[1]))), depth);
     const Float largest = of_character(scene.largest_silhouette);
-    const Float area = hn::Mul(hn::Mul(hn::Mul(cells, cells), set(block.aslant * cell_full)), largest);
+    const Float area = hn::Mul(hn::Mul(hn::Mul(square(cells), aslant), set(part.share * cell_full)), largest);
     hn::Store(hn::ConvertTo(ints, hn::Min(hn::Add(area, set(0.5f)), set(32767.0f))), ints, out.steps);
 
-    const auto turned = [&](const std::array<float, 2>& direction) HWY_ATTR {
-        const Float dx = set(direction[0]), dz = set(direction[1]);
+    // Seen from aside it is smaller; nobody who sits has any.
+    const Float radius = hn::Mul(hn::Mul(height, set(contact_reach)), cells_per_metre);
+    const Float spot =
+        hn::Mul(hn::Mul(square(radius), set(block.in_rows ? 0.0f : contact_area * part.share * cell_full)),
+                hn::Div(hn::Abs(at[1]), depth));
+    hn::Store(hn::ConvertTo(ints, hn::Min(hn::Add(spot, set(0.5f)), set(32767.0f))), ints, out.shade);
+    const auto turned = [&](Float dx, Float dz) HWY_ATTR {
         return diamond(hn::Sub(hn::Mul(cosine, dx), hn::Mul(sine, dz)),
                        hn::Add(hn::Mul(cosine, dz), hn::Mul(sine, dx)));
     };
-    const Step eye = step_of(turned(block.to_eye), ring_nodes), sun = step_of(turned(scene.to_sun), sun_azimuths);
+    const Step eye = step_of(turned(hn::Neg(at[0]), hn::Neg(at[2])), set(0.25f * ring_nodes), ring_nodes);
+    const Step sun =
+        step_of(turned(set(scene.to_sun[0]), set(scene.to_sun[1])), set(0.25f * sun_azimuths), sun_azimuths);
+    // between_nodes': from straight below, -1, to straight above.
+    const Float upward = hn::Div(hn::Neg(at[1]), hn::Add(hn::Abs(at[1]), hn::Sqrt(out_square)));
+    const Step ring = step_of(hn::Add(upward, set(1.0f)), set(0.5f * (rings - 1)), rings - 1);
+    hn::Store(ring.part, ints, out.up);
     const auto rows = [](Int count) HWY_ATTR { return hn::Mul(count, hn::Set(ints, far_row_values)); };
-    const Int own = hn::Add(hn::Add(hn::Mul(key, hn::Set(ints, far_key_rows)), eye.whole), hn::Set(ints, block.ring));
+    const Int own = hn::Add(hn::Add(hn::Mul(key, hn::Set(ints, far_key_rows)), eye.whole),
+                            hn::Mul(ring.whole, hn::Set(ints, far_ring_rows)));
     const Int before = hn::Add(own, hn::Mul(sun.whole, hn::Set(ints, far_sun_rows)));
     const auto is_last = hn::Eq(sun.whole, hn::Set(ints, sun_azimuths - 1));
     hn::Store(rows(before), ints, out.before);
@@ -184,12 +210,12 @@ Vector between(Vector a, Vector b, Vector share) {
     return hn::Add(a, hn::MulFixedPoint15(hn::Sub(b, a), share));
 }
 
-Colored look_at(const FarScene& scene, const Staged& staged, int i, std::int16_t up, const scene::Palette& palette) {
+Colored look_at(const FarScene& scene, const Staged& staged, int i, const scene::Palette& palette) {
     const std::int16_t* before = scene.rows.data() + staged.before[i];
     const std::int16_t* behind = scene.rows.data() + staged.behind[i];
     const auto to_sun = hn::Set(two_rows, static_cast<std::int16_t>(staged.to_sun[i]));
     const auto around = hn::Set(one_row, static_cast<std::int16_t>(staged.around[i]));
-    const auto above = hn::Set(two_rows, up);
+    const auto above = hn::Set(two_rows, static_cast<std::int16_t>(staged.up[i]));
     // Of both neighbours, of values from `first` on.
     const auto neighbours = [&](int first) HWY_ATTR {
         constexpr int ring = far_ring_rows * far_row_values;
@@ -262,10 +288,9 @@ void add_pair(std::int16_t* cells, hn::Vec<Pixel> value, std::int32_t shares) {
 #endif
 }
 
-// Of each cell: light, coverage, and the way back times coverage.
-void add(const FarScene& scene, const FarBlockOnScreen& block, const Staged& staged, int i, std::size_t person,
-         const Patch& patch) {
-    const auto sum = sum_up(look_at(scene, staged, i, block.up, scene.people.crowd->palette[person]));
+// Of each cell: light, coverage, the way back times coverage, and shade.
+void add(const FarScene& scene, const Staged& staged, int i, std::size_t person, const Patch& patch) {
+    const auto sum = sum_up(look_at(scene, staged, i, scene.people.crowd->palette[person]));
     alignas(16) static constexpr std::int16_t is_light[] = {-1, -1, -1, 0, 0, 0, 0, 0};
     alignas(16) static constexpr std::int16_t is_back[] = {0, 0, 0, 0, -1, 0, 0, 0};
     alignas(16) static constexpr std::int16_t one[] = {0, 0, 0, 32767, 0, 0, 0, 0};
@@ -275,10 +300,21 @@ void add(const FarScene& scene, const FarBlockOnScreen& block, const Staged& sta
     const hn::Repartition<std::uint8_t, Pixel> bytes;
     const auto silhouette = hn::TableLookupBytes(sum, hn::BitCast(pixel, hn::Load(bytes, fourth)));
     const auto area = hn::MulFixedPoint15(silhouette, hn::Set(pixel, static_cast<std::int16_t>(staged.steps[i])));
-    const auto value = hn::MulFixedPoint15(each, area);
+    alignas(16) static constexpr std::int16_t is_shade[] = {0, 0, 0, 0, 0, -1, 0, 0};
+    const auto shade = hn::And(hn::Set(pixel, static_cast<std::int16_t>(staged.shade[i])), hn::Load(pixel, is_shade));
+    const auto value = hn::Or(hn::MulFixedPoint15(each, area), shade);
     std::int16_t* cells = patch.cells + staged.cell[i];
     add_pair(cells, value, staged.upper[i]);
     add_pair(cells + 8 * patch.stride, value, staged.lower[i]);
+}
+
+// What of the coverage of a cell's shade people leave open.
+hn::Vec<Pixel> shade_between(hn::Vec<Pixel> people, std::int16_t shade) {
+    alignas(16) static constexpr std::int16_t is_coverage[] = {0, 0, 0, -1, 0, 0, 0, 0};
+    const auto open = hn::Sub(hn::Set(pixel, cell_full), people);
+    const auto part =
+        hn::Set(pixel, static_cast<std::int16_t>(std::min<int>(shade, cell_full - 1) * (32768 / cell_full)));
+    return hn::And(hn::MulFixedPoint15(hn::Max(open, hn::Zero(pixel)), part), hn::Load(pixel, is_coverage));
 }
 
 bool is_empty(const std::int16_t* group) {
@@ -309,7 +345,8 @@ void thin(const FarScene& scene, const FarBlockOnScreen& block, const Patch& pat
                 const int at = cell[3] >> far_cover_shift;
                 const auto covers = hn::MulFixedPoint15(hn::Load(pixel, cell), hn::Set(pixel, cover.covered[at]));
                 const auto more = hn::MulFixedPoint15(lean, hn::Set(pixel, cover.upper[at]));
-                hn::Store(hn::SaturatedAdd(covers, hn::MulFixedPoint15(covers, more)), pixel, cell);
+                const auto people = hn::SaturatedAdd(covers, hn::MulFixedPoint15(covers, more));
+                hn::Store(hn::SaturatedAdd(people, shade_between(people, cell[5])), pixel, cell);
             }
         }
         patch.used[y] = used;
@@ -320,14 +357,23 @@ void thin(const FarScene& scene, const FarBlockOnScreen& block, const Patch& pat
 
 void SplatBlock(const FarScene& scene, const FarBlockOnScreen& block, const Patch& to) {
     const Patch patch = to;  // of its own: what is stored could change it otherwise, for all that is known
-    Staged staged;
     const std::size_t last = scene.people.crowd->size() - lanes;
-    for (std::size_t first = block.first; first < block.first + block.count; first += lanes) {
-        const std::size_t person = std::min(first, last);
-        for (std::uint32_t left = stage(scene, block, first, person, patch, staged); left != 0; left &= left - 1) {
-            const int i = std::countr_zero(left);
-            add(scene, block, staged, i, person + static_cast<std::size_t>(i), patch);
+    const auto add_all = [&](Part part) HWY_ATTR {
+        Staged staged;
+        for (std::size_t first = block.first; first < block.first + block.count; first += lanes) {
+            const std::size_t person = std::min(first, last);
+            std::uint32_t left = stage(scene, block, part, first, person, patch, staged);
+            for (; left != 0; left &= left - 1) {
+                const int i = std::countr_zero(left);
+                add(scene, staged, i, person + static_cast<std::size_t>(i), patch);
+            }
         }
+    };
+    if (block.is_tall) {
+        add_all({-1.0f, 0.5f});
+        add_all({1.0f, 0.5f});
+    } else {
+        add_all({0.0f, 1.0f});
     }
     thin(scene, block, patch);
 }
@@ -380,10 +426,11 @@ void FarCrowd::learn(std::span<const SplatModel* const> models, const scene::Cro
         leanings_[character] = looks.leanings;
         scene_.largest_silhouette.push_back(looks.largest_silhouette);
         scene_.rows.insert(scene_.rows.end(), looks.rows.begin(), looks.rows.end());
-        const glm::vec3 center = far_center(*figures_[character].poses);
-        scene_.center_x.push_back(center.x);
-        scene_.center_y.push_back(center.y);
-        scene_.center_z.push_back(center.z);
+        const FarShape shape = far_shape(*figures_[character].poses);
+        scene_.center_x.push_back(shape.center.x);
+        scene_.center_y.push_back(shape.center.y);
+        scene_.center_z.push_back(shape.center.z);
+        scene_.height.push_back(shape.height);
         keys += looks.rows.size() / (far_key_rows * far_row_values);
     }
 }
@@ -451,25 +498,24 @@ FarBlockOnScreen FarCrowd::ready(const View& view, const FarBlock& far) const {
     out.count = block.count;
     const glm::vec3 middle = view.relative(block.box.center());
     const Between between = between_nodes(-middle);
-    out.to_eye = {-middle.x, -middle.z};
-    out.ring = between.node[0] / ring_nodes * far_ring_rows;
     out.leaning = leaning_of(look, static_cast<float>(between.node[0] / ring_nodes) + between.up);
-    out.up = static_cast<std::int16_t>(between.up * 32767.0f);
-    out.aslant = glm::length(middle) / far.depth;
-    glm::vec2 low(INFINITY), high(-INFINITY);
+    constexpr float usual_height = 1.75f, low = 1.25f;  // [m], [cells]
+    const float height = scene_.height[look.character] * scene_.metres[look.character] * usual_height * view.up.y;
+    out.is_tall = height * scene_.cells_at_one_metre > low * far.depth;
+    glm::vec2 from(INFINITY), to(-INFINITY);
     for (int corner = 0; corner < 8; ++corner) {
         const glm::vec3 at = view.relative({corner & 1 ? block.box.max.x : block.box.min.x,
                                             corner & 2 ? block.box.max.y : block.box.min.y,
                                             corner & 4 ? block.box.max.z : block.box.min.z});
         const float scale = scene_.cells_at_one_metre / std::max(view.depth(at), near_plane);
         const glm::vec2 cells = scale * glm::vec2(glm::dot(view.right, at), -glm::dot(view.up, at));
-        low = glm::min(low, cells);
-        high = glm::max(high, cells);
+        from = glm::min(from, cells);
+        to = glm::max(to, cells);
     }
-    out.x0 = clamped(std::floor(low.x + scene_.center[0]) - 1.0f);
-    out.y0 = clamped(std::floor(low.y + scene_.center[1]) - 1.0f);
-    out.x1 = clamped(std::floor(high.x + scene_.center[0]) + 3.0f);
-    out.y1 = clamped(std::floor(high.y + scene_.center[1]) + 3.0f);
+    out.x0 = clamped(std::floor(from.x + scene_.center[0]) - 1.0f);
+    out.y0 = clamped(std::floor(from.y + scene_.center[1]) - 1.0f);
+    out.x1 = clamped(std::floor(to.x + scene_.center[0]) + 3.0f);
+    out.y1 = clamped(std::floor(to.y + scene_.center[1]) + 3.0f);
     return out;
 }
 

@@ -22,12 +22,9 @@ namespace render::native {
 struct FarBlockOnScreen : InDepth {
     std::int32_t character;        // of all its people; < 0: they are of several
     std::uint32_t first, count;    // people
-    std::array<float, 2> to_eye;   // its x and z, world, of any length
-    std::int32_t ring;             // of the nodes below that direction, as rows of FarLooks
-    std::int16_t up;               // from that ring to the next, 32767 = 1
     std::array<float, 3> leaning;  // of red, green, blue: 12 times Leaning's lean over its mean
     bool in_rows;
-    float aslant;                 // by how much silhouettes are larger for being off the picture's middle
+    bool is_tall;                 // so high in cells that one splat would be too short
     std::int16_t x0, y0, x1, y1;  // [cells] what they may touch
 
     Rect cells() const { return {x0, y0, x1, y1}; }
@@ -53,6 +50,7 @@ struct FarScene {
     // By character.
     std::vector<float> metres;                        // [1 / model units] a person's scale by their height
     std::vector<float> center_x, center_y, center_z;  // [model units]
+    std::vector<float> height;                        // [model units] of a box whose points vary as theirs do
     std::vector<float> largest_silhouette;            // [model units^2]
     std::vector<std::int32_t> first_key;              // of its keys among all
     Array<std::int16_t> rows;                         // FarLooks'

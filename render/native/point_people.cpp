@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/contact_shade.h"
 #include "render/native/cell_grid.h"
 
 namespace render::native {
@@ -75,14 +76,16 @@ struct Sight {
     }
 
     // [cells] From the middle of the picture.
-    glm::vec2 from_center() const {
-        return cells_per_metre * glm::vec2(glm::dot(view.right, middle), -glm::dot(view.up, middle));
+    glm::vec2 from_center() const { return from_center(middle); }
+    glm::vec2 from_center(glm::vec3 place) const {
+        return cells_per_metre * glm::vec2(glm::dot(view.right, place), -glm::dot(view.up, place));
     }
-    // [cells] On the picture.
-    glm::vec2 at() const {
+    // [cells] On the picture; of another place that is as far.
+    glm::vec2 at() const { return at(middle); }
+    glm::vec2 at(glm::vec3 place) const {
         constexpr float farthest = 1e6f;  // beyond every picture
         const glm::vec2 center = 0.5f / cell * glm::vec2(view.width, view.height);
-        return glm::clamp(from_center() + center, -farthest, farthest);
+        return glm::clamp(from_center(place) + center, -farthest, farthest);
     }
 };
 
@@ -195,6 +198,19 @@ void color(const Sight& sight, SplatPerson& out) {
     for (int channel = 0; channel < 3; ++channel)
         for (int slot = 0; slot <= model::slot_count; ++slot)
             out.mean_light[channel] += lights[slot][channel] * (out.palette[channel][slot] / unit);
+}
+
+// What is too small to be drawn round; seen from aside it is smaller still.
+void find_spot(const Sight& sight, SplatPerson& out) {
+    out.spot = 0;
+    const float radius = sight.person.shade_radius;
+    if (!(radius > 0.0f)) return;
+    const float share = 1.0f - contact_share(radius * sight.view.pixels_per_metre(sight.depth));
+    const float cells = radius * sight.cells_per_metre;
+    const float aside = std::abs(sight.middle.y) / sight.depth;
+    out.spot = fixed(share * contact_area * cells * cells * aside, cell_full);
+    const glm::vec2 at = sight.at(sight.person.instance.position);
+    for (int i = 0; i < 2; ++i) out.feet[i] = static_cast<std::int32_t>(std::floor(at[i] * steps_a_cell));
 }
 
 // [px] The side of cells for S: four fifths of a point or more a cell, half of which face the eye. Smaller cells have
@@ -316,6 +332,7 @@ SplatPerson PointPeople::ready(const View& view, const Person& person, float cel
     find_bounds(sight, out);
     weigh(sight, kind.gains, out);
     color(sight, out);
+    find_spot(sight, out);
     return out;
 }
 

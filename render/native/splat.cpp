@@ -278,6 +278,22 @@ void add(const Staged& staged, const Patch& patch, int i) {
     patch.used[row + 1] |= groups;
 }
 
+void add_spot(const SplatPerson& person, const Patch& patch) {
+    constexpr int half = 1 << (cell_bits - 1), within = (1 << cell_bits) - 1;
+    const std::int32_t x = person.feet[0] - (patch.x0 << cell_bits) - half;
+    const std::int32_t y = person.feet[1] - (patch.y0 << cell_bits) - half;
+    const std::int32_t column = x >> cell_bits, row = y >> cell_bits;
+    if (column < 0 || row < 0 || column >= patch.width - 1 || row >= patch.height - 1) return;
+    Staged spot;
+    spot.light_and_area[0] = static_cast<std::uint64_t>(person.spot) << 48;
+    spot.column[0] = static_cast<std::int16_t>(column);
+    spot.row[0] = static_cast<std::int16_t>(row);
+    spot.right[0] = static_cast<std::int16_t>((x & within) << (15 - cell_bits));
+    spot.down[0] = static_cast<std::int16_t>((y & within) << (15 - cell_bits));
+    std::fill_n(spot.back, 4, std::int16_t{0});
+    add(spot, patch, 0);
+}
+
 }  // namespace
 
 void Splat(const SplatPerson& person, const SplatLight& light, const Patch& to) {
@@ -299,6 +315,7 @@ void Splat(const SplatPerson& person, const SplatLight& light, const Patch& to) 
             stage(person, light, patch, place, area, person.total > 0.0f ? &parts : nullptr, chunk, lane, staged);
         for (std::uint32_t left = staged.used; left != 0; left &= left - 1) add(staged, patch, std::countr_zero(left));
     }
+    if (person.spot > 0) add_spot(person, patch);
 }
 
 }  // namespace render::native::HWY_NAMESPACE

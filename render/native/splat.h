@@ -62,6 +62,9 @@ struct SplatPerson : InDepth {
     std::array<float, 3> mean_light;
     float area_each;              // [cells] of a point that faces the eye, with a facet and a share of 1
     std::int16_t x0, y0, x1, y1;  // [cells] what they may touch
+    // A black spot under them, as dark as the shade that is too small to be drawn round (render/contact_shade.h).
+    std::int16_t spot;                 // [1/8192 cell]
+    std::array<std::int32_t, 2> feet;  // on the screen [1/128 cell]
 
     const PosedChunk& chunk(int i) const { return i == 0 ? *first_chunk : other_chunks[i - 1]; }
     const std::uint32_t* visible_of(int chunk, int look) const {

@@ -501,7 +501,7 @@ void darken(const Scene& scene, Behind& behind) {
     for (const Person& person : scene.people) {
         const double depth = std::max(glm::dot(person.origin - camera.position, camera.forward), Camera::near);
         const double pixels = person.shade * camera.pixels_per_metre(depth);
-        const double share = std::clamp((pixels - least) / (whole - least), 0.0, 1.0);
+        const double share = scene.fades_shade ? std::clamp((pixels - least) / (whole - least), 0.0, 1.0) : 1.0;
         if (person.shade > 0 && share > 0) rounds.push_back({person.origin, person.shade, strength * share});
     }
     behind.left.assign(behind.depth.size(), 1);

@@ -91,6 +91,8 @@ struct Scene {
     // a pixel, whose light is that of its middle, and as a whole the depth of the second farthest; else one, in the
     // middle. Who is splats is drawn only with one.
     int samples = 1;
+    // Who is small in the picture loses their shade; else it is whole however small it is.
+    bool fades_shade = true;
 };
 
 // A frame's decision, told person by person: everybody at `tick`, seen or not. `figures` in the order of
