@@ -12,6 +12,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "figures/way.h"
 #include "render/frame.h"
 
 namespace render {
@@ -37,7 +38,8 @@ struct ContactShade {
     float fall;      // [1/m^2] peak / radius^2
 };
 
-// Of whom in the frame it can be seen, in their order; `out` keeps its memory.
-void find_contact_shades(const Frame& frame, std::vector<ContactShade>& out);
+// Of whom in the frame it is drawn, in their order; `out` keeps its memory. Natively that of people who are triangles
+// is drawn however small it is: they are what pictures are held to.
+void find_contact_shades(const Frame& frame, const figures::Way& way, std::vector<ContactShade>& out);
 
 }  // namespace render

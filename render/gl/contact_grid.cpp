@@ -27,7 +27,7 @@ void upload_anew(const Buffer& buffer, std::span<const T> data, GLuint binding) 
 ContactGrid::ContactGrid() : block_(Buffer::create()), cells_(Buffer::create()), sorted_(Buffer::create()) {}
 
 void ContactGrid::fill(const Frame& frame) {
-    find_contact_shades(frame, shades_);
+    find_contact_shades(frame, figures::by_opengl(), shades_);
     if (shades_.empty()) return;
     choose_cells();
     // Counting sort; within a cell people stay in their order.

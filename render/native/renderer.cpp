@@ -76,7 +76,7 @@ void Renderer::draw(const Frame& frame) {
     triangles_.prepare(frame.view, near_people_);
     points_.prepare(frame.view, frame.splat_size, point_people_);
     prepare_far(frame);
-    find_contact_shades(frame, shades_);
+    find_contact_shades(frame, figures::natively(), shades_);
     fill_lists();
     for_each_tile(grid_.count(), [&](std::size_t tile) { draw_tile(tile); });
     drawn_ = frame.people;

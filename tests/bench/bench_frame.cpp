@@ -1,5 +1,5 @@
 // Whole frames of the demo's stadium, 20,000 people at 1280x720: full triangles by OpenGL beside the native renderer,
-// how good their pictures are, and what a piece of work costs. docs/measurements/native.md says how to read it.
+// how good their pictures are, and what a piece of work costs; and of a million. docs/measurements/native.md says how to read it.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 
 #include "tests/bench/frame_change.h"
 #include "tests/bench/frame_errors.h"
+#include "tests/bench/million.h"
 #include "tests/bench/shooter.h"
 #include "tests/bench/stand_light.h"
 
@@ -406,6 +407,7 @@ int main(int argc, char** argv) {
     register_frames();
     register_prices();
     register_accuracy();
+    bench::register_million();
     benchmark::RunSpecifiedBenchmarks();
     benchmark::Shutdown();
 }

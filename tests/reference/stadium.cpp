@@ -26,7 +26,7 @@ Frame Stadium::shoot(const scene::CameraPose& pose, const sfsm::Decision& decisi
                 scene_.plan.stand_offset,
                 decision.splat_size,
                 samples_of(way_, decision.splat_size),
-                way_.drawing == sfsm::Drawing::opengl || decision.splat_size == 0};
+                way_.drawing == sfsm::Drawing::opengl};
     scene.people = people_of(scene_.crowd, scene_.cast, scene_.poses, figures_, scene.camera, decision, tick);
     if (way_.drawing == sfsm::Drawing::native)
         for (Person& person : scene.people) person.points = 0;

@@ -20,7 +20,7 @@ std::vector<render::ContactShade> shades(double pixels_a_metre, std::initializer
         frame.people.push_back(person);
     }
     std::vector<render::ContactShade> out(3);  // what was there is gone
-    render::find_contact_shades(frame, out);
+    render::find_contact_shades(frame, figures::by_opengl(), out);
     return out;
 }
 
