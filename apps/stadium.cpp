@@ -112,18 +112,20 @@ public:
 
 private:
     // Shaders and tables are made at the first draw that needs them: one person of each character, drawn as they may
-    // be, before any time is taken.
+    // be, and a far block, before any time is taken.
     void warm_up() {
         throw_if_interrupted();
         const render::View view = view_now();
         const float range = selector_->survey(view, 0).range;
-        for (const sfsm::State state : {sfsm::State::original, sfsm::State::points}) {
-            if (options_.state && (*options_.state == sfsm::State::points) != (state == sfsm::State::points)) continue;
-            const render::Frame& everybody = selector_->select(fixed_decision(options_, state, range), -1);
-            canvas_.renderer().begin(view);
-            canvas_.renderer().draw(one_of_each(everybody));
+        render::Frame frame = one_of_each(view, stage_->place.crowd, stage_->figures(), canvas_.way());
+        if (options_.state.value_or(sfsm::State::points) == sfsm::State::points) {
+            const render::Frame& points = selector_->select(fixed_decision(options_, sfsm::State::points, range), -1);
+            frame.far_people = points.far_people;
+            if (!points.far_blocks.empty()) frame.far_blocks = {points.far_blocks.front()};
         }
-        canvas_.renderer().read_image();  // waits for them
+        canvas_.renderer().begin(view);
+        canvas_.renderer().draw(frame);
+        canvas_.renderer().read_image();  // waits for it
     }
 
     render::View view_now() const {

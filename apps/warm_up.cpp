@@ -1,22 +1,39 @@
 #include "apps/warm_up.h"
 
-#include <set>
-#include <utility>
+#include <algorithm>
+#include <cstdint>
+#include <vector>
 
 namespace apps {
 
-render::Frame one_of_each(const render::Frame& everybody) {
+render::Frame one_of_each(const render::View& view, const scene::Crowd& crowd,
+                          std::span<const figures::Figure> figures, const figures::Way& way) {
+    constexpr float away = 30.0f;  // [m]
     render::Frame frame;
-    frame.view = everybody.view;
-    frame.splat_size = everybody.splat_size;
-    frame.far_people = everybody.far_people;
-    frame.batch_numbers = everybody.batch_numbers;
-    frame.work = everybody.work;
-    frame.state = everybody.state;
-    if (!everybody.far_blocks.empty()) frame.far_blocks = {everybody.far_blocks.front()};
-    std::set<std::pair<std::uint32_t, std::uint32_t>> kinds;
-    for (const render::Person& person : everybody.people)
-        if (kinds.emplace(person.character, person.representation).second) frame.people.push_back(person);
+    frame.view = view;
+    frame.splat_size = 1;
+    for (std::uint32_t character = 0; character < figures.size(); ++character) {
+        const auto somebody = std::ranges::find(crowd.character, character);
+        if (somebody == crowd.character.end()) continue;
+        const auto person = static_cast<std::size_t>(somebody - crowd.character.begin());
+        const figures::Figure& figure = figures[character];
+        const float scale = crowd.height[person] / figure.poses->rest_height;
+        for (std::uint32_t i = 0; i < way.representations.size(); ++i) {
+            if (way.representations[i].is_by_block) continue;
+            const std::vector<figures::Level> levels = way.representations[i].levels(figure);
+            if (levels.empty()) continue;
+            render::Person one{};
+            one.instance = {away * view.forward, scale, {0, 32767}, crowd.palette[person]};
+            one.character = character;
+            one.representation = i;
+            one.first = levels.back().first;
+            one.count = levels.back().count;
+            one.last_share = 1;
+            one.batch = frame.batch_numbers++;
+            one.depth = away;
+            frame.people.push_back(one);
+        }
+    }
     return frame;
 }
 
