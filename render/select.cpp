@@ -297,7 +297,7 @@ void Selector::choose_as_one(Seen& seen, const sfsm::Decision& decision, std::in
     if (decision.state != sfsm::State::original)
         period = motion::update_period(depth, static_cast<float>(decision.motion_distance), options_.theta);
     const std::int64_t due = motion::due_tick(tick_, period, crowd_.hash[block.first]);
-    constexpr int ticks_a_key = 4;
+    constexpr int ticks_a_key = 8;
     const std::int64_t key_tick = motion::due_tick(due, ticks_a_key, crowd_.hash[block.first]);
     std::int64_t& known = blocks_[seen.block].key_tick;
     if (key_tick != known) {

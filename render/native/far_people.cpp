@@ -6,6 +6,7 @@
 // After it.
 #include <hwy/cache_control.h>
 #include <hwy/highway.h>
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -288,33 +289,29 @@ void add_pair(std::int16_t* cells, hn::Vec<Pixel> value, std::int32_t shares) {
 #endif
 }
 
-// Of each cell: light, coverage, the way back times coverage, and shade.
+// Which lanes of a cell count people's shade, too.
+hn::Mask<Pixel> with_shade() {
+    alignas(16) static constexpr std::int16_t is_with[] = {0, 0, 0, -1, -1, 0, 0, 0};
+    return hn::MaskFromVec(hn::Load(pixel, is_with));
+}
+
+// Of each cell: people's light, coverage, the way back times coverage, and what of the coverage is people.
 void add(const FarScene& scene, const Staged& staged, int i, std::size_t person, const Patch& patch) {
     const auto sum = sum_up(look_at(scene, staged, i, scene.people.crowd->palette[person]));
     alignas(16) static constexpr std::int16_t is_light[] = {-1, -1, -1, 0, 0, 0, 0, 0};
     alignas(16) static constexpr std::int16_t is_back[] = {0, 0, 0, 0, -1, 0, 0, 0};
-    alignas(16) static constexpr std::int16_t one[] = {0, 0, 0, 32767, 0, 0, 0, 0};
+    alignas(16) static constexpr std::int16_t one[] = {0, 0, 0, 32767, 0, 32767, 0, 0};
     const auto back = hn::And(hn::Set(pixel, static_cast<std::int16_t>(staged.back[i])), hn::Load(pixel, is_back));
     const auto each = hn::Or(hn::And(sum, hn::Load(pixel, is_light)), hn::Or(back, hn::Load(pixel, one)));
     alignas(16) static constexpr std::uint8_t fourth[] = {6, 7, 6, 7, 6, 7, 6, 7, 6, 7, 6, 7, 6, 7, 6, 7};
     const hn::Repartition<std::uint8_t, Pixel> bytes;
     const auto silhouette = hn::TableLookupBytes(sum, hn::BitCast(pixel, hn::Load(bytes, fourth)));
     const auto area = hn::MulFixedPoint15(silhouette, hn::Set(pixel, static_cast<std::int16_t>(staged.steps[i])));
-    alignas(16) static constexpr std::int16_t is_shade[] = {0, 0, 0, 0, 0, -1, 0, 0};
-    const auto shade = hn::And(hn::Set(pixel, static_cast<std::int16_t>(staged.shade[i])), hn::Load(pixel, is_shade));
-    const auto value = hn::Or(hn::MulFixedPoint15(each, area), shade);
+    const auto all = hn::SaturatedAdd(area, hn::Set(pixel, static_cast<std::int16_t>(staged.shade[i])));
+    const auto value = hn::MulFixedPoint15(each, hn::IfThenElse(with_shade(), all, area));
     std::int16_t* cells = patch.cells + staged.cell[i];
     add_pair(cells, value, staged.upper[i]);
     add_pair(cells + 8 * patch.stride, value, staged.lower[i]);
-}
-
-// What of the coverage of a cell's shade people leave open.
-hn::Vec<Pixel> shade_between(hn::Vec<Pixel> people, std::int16_t shade) {
-    alignas(16) static constexpr std::int16_t is_coverage[] = {0, 0, 0, -1, 0, 0, 0, 0};
-    const auto open = hn::Sub(hn::Set(pixel, cell_full), people);
-    const auto part =
-        hn::Set(pixel, static_cast<std::int16_t>(std::min<int>(shade, cell_full - 1) * (32768 / cell_full)));
-    return hn::And(hn::MulFixedPoint15(hn::Max(open, hn::Zero(pixel)), part), hn::Load(pixel, is_coverage));
 }
 
 bool is_empty(const std::int16_t* group) {
@@ -342,11 +339,13 @@ void thin(const FarScene& scene, const FarBlockOnScreen& block, const Patch& pat
             if (is_empty(group)) continue;
             used |= std::uint64_t{1} << (x / group_cells);
             for (std::int16_t* cell = group; cell < group + 8 * group_cells; cell += 8) {
-                const int at = cell[3] >> far_cover_shift;
-                const auto covers = hn::MulFixedPoint15(hn::Load(pixel, cell), hn::Set(pixel, cover.covered[at]));
-                const auto more = hn::MulFixedPoint15(lean, hn::Set(pixel, cover.upper[at]));
-                const auto people = hn::SaturatedAdd(covers, hn::MulFixedPoint15(covers, more));
-                hn::Store(hn::SaturatedAdd(people, shade_between(people, cell[5])), pixel, cell);
+                // What lies under people is hidden as what is behind them.
+                const int all = cell[3] >> far_cover_shift, people = cell[5] >> far_cover_shift;
+                const auto share = hn::IfThenElse(with_shade(), hn::Set(pixel, cover.covered[all]),
+                                                  hn::Set(pixel, cover.covered[people]));
+                const auto covers = hn::MulFixedPoint15(hn::Load(pixel, cell), share);
+                const auto more = hn::MulFixedPoint15(lean, hn::Set(pixel, cover.upper[people]));
+                hn::Store(hn::SaturatedAdd(covers, hn::MulFixedPoint15(covers, more)), pixel, cell);
             }
         }
         patch.used[y] = used;
@@ -478,11 +477,16 @@ void FarCrowd::prepare(const Frame& frame, float cell) {
     scene_.forward = view.forward;
     scene_.cells_at_one_metre = view.pixels_per_metre(1.0f) / cell;
     scene_.center = {0.5f / cell * static_cast<float>(view.width), 0.5f / cell * static_cast<float>(view.height)};
-    blocks_.clear();
-    for (const FarBlock& block : frame.far_blocks) blocks_.push_back(ready(view, block));
-    std::ranges::stable_sort(blocks_, {}, &FarBlockOnScreen::depth);
-    bounds_.clear();
-    for (const FarBlockOnScreen& block : blocks_) bounds_.push_back(pixels_of(block.cells(), cell));
+    by_depth_ = frame.far_blocks;
+    std::ranges::stable_sort(by_depth_, {}, &FarBlock::depth);
+    blocks_.resize(by_depth_.size());
+    bounds_.resize(by_depth_.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, by_depth_.size(), 64), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            blocks_[i] = ready(view, by_depth_[i]);
+            bounds_[i] = pixels_of(blocks_[i].cells(), cell);
+        }
+    });
 }
 
 FarBlockOnScreen FarCrowd::ready(const View& view, const FarBlock& far) const {

@@ -93,6 +93,7 @@ private:
     std::vector<std::array<Leaning, rings>> leanings_;  // by character
     std::vector<Look> looks_;                           // by Crowd::blocks
     FarScene scene_;
+    std::vector<FarBlock> by_depth_;
     std::vector<FarBlockOnScreen> blocks_;
     std::vector<Rect> bounds_;
 };

@@ -442,7 +442,7 @@ TEST(Selection, OfFarBlocksDoesNotDependOnTheFramesBefore) {
             const scene::CrowdBlock& all = small_scene().crowd.blocks[block.block];
             const std::uint8_t* first = frame.far_people.keys + all.first;
             EXPECT_LE(block.tick, tick);
-            EXPECT_GT(block.tick, tick - 4);
+            EXPECT_GT(block.tick, tick - 8);
             blocks.emplace_back(block, std::vector<int>(first, first + all.count));
         }
         return blocks;
