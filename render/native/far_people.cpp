@@ -409,7 +409,7 @@ FarCrowd::FarCrowd(std::span<const figures::Figure> figures, const scene::Light&
         }
     };
     fill(scene_.scattered, [](double areas) { return 1.0 - std::exp(-areas); });
-    fill(scene_.in_rows, [](double areas) { return areas / std::cbrt(1.0 + areas * areas * areas); });
+    fill(scene_.in_rows, [](double areas) { return areas / std::sqrt(1.0 + areas * areas); });
 }
 
 void FarCrowd::learn(std::span<const SplatModel* const> models, const scene::Crowd& crowd) {
