@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -88,6 +89,7 @@ private:
         glm::vec3 middle{0.0f};  // [m] world: mean of theirs
     };
     enum class Look : std::uint8_t { outside, hidden, partly, inside };
+    static constexpr std::int64_t no_tick = std::numeric_limits<std::int64_t>::min();
     // Of one of Crowd::blocks.
     struct Block {
         std::uint32_t first_group = 0, groups = 0;
@@ -96,7 +98,7 @@ private:
         // In the view that is surveyed:
         Look look{};
         bool small = false;
-        std::int64_t key_tick = -1;  // that its people's keys are of; < 0: of none yet
+        std::int64_t key_tick = no_tick;  // that its people's keys are of
     };
     struct Spot {
         glm::vec3 position;  // [m] camera-relative, of the model's origin

@@ -457,6 +457,27 @@ TEST(Selection, OfFarBlocksDoesNotDependOnTheFramesBefore) {
     EXPECT_GT(different.size(), 3u) << "people move";
 }
 
+// From the first frame on: some blocks are asked at ticks before 0 then.
+TEST(Selection, OfFarBlocksHasTheKeysOfTheirTicks) {
+    const figures::SplatKeys keys = figures::splat_keys(small_scene().poses.front());
+    for (const std::int64_t tick : {0, 1, 2, 3, 100}) {
+        Selector selector(small_scene().crowd, small_scene().cast, small_scene().figures());
+        selector.survey(far_views[0], tick);
+        const Frame& frame = selector.select(points_of(4, 1e6), tick - 1);
+        EXPECT_FALSE(frame.far_blocks.empty());
+        for (const render::FarBlock& far : frame.far_blocks) {
+            const scene::CrowdBlock& block = small_scene().crowd.blocks[far.block];
+            for (std::size_t person = block.first; person < block.first + block.count; ++person) {
+                const scene::Action action =
+                    scene::act(small_scene().crowd, person, small_scene().cast[0], small_scene().poses[0], far.tick);
+                const int pose = small_scene().poses[0].pose_at(action.clip, action.clip_tick);
+                ASSERT_EQ(frame.far_people.keys[person], keys.of_pose[static_cast<std::size_t>(pose)])
+                    << "tick " << tick << ", asked at " << far.tick;
+            }
+        }
+    }
+}
+
 // Each key is the one next to the pose that the person has.
 TEST(Selection, KeysOfFarPeopleAreNextToTheirPoses) {
     const motion::PoseTable& poses = small_scene().poses.front();
