@@ -80,6 +80,10 @@ void FarDrawer::look_at_figures() {
     std::vector<std::vector<float>> layers;
     std::size_t largest = 0;
     for (const figures::Figure& figure : figures_) {
+        if (figures::splat_levels(figure).empty()) {  // nobody of it is ever in a far block
+            layers.emplace_back();
+            continue;
+        }
         const native::FarLooks looks(figure, native::SplatModel(figure, light_));
         layers.push_back(texels_of(looks, *figure.poses));
         largest = std::max(largest, layers.back().size());

@@ -178,7 +178,7 @@ std::uint32_t stage(const FarScene& scene, const FarBlockOnScreen& block, Part p
     const Step sun =
         step_of(turned(set(scene.to_sun[0]), set(scene.to_sun[1])), set(0.25f * sun_azimuths), sun_azimuths);
     // between_nodes': from straight below, -1, to straight above.
-    const Float upward = hn::Div(hn::Neg(at[1]), hn::Add(hn::Abs(at[1]), hn::Sqrt(out_square)));
+    const Float upward = hn::Div(hn::Neg(at[1]), hn::Max(hn::Add(hn::Abs(at[1]), hn::Sqrt(out_square)), set(1e-30f)));
     const Step ring = step_of(hn::Add(upward, set(1.0f)), set(0.5f * (rings - 1)), rings - 1);
     hn::Store(ring.part, ints, out.up);
     const auto rows = [](Int count) HWY_ATTR { return hn::Mul(count, hn::Set(ints, far_row_values)); };
@@ -412,15 +412,17 @@ FarCrowd::FarCrowd(std::span<const figures::Figure> figures, const scene::Light&
     fill(scene_.in_rows, [](double areas) { return areas / std::sqrt(1.0 + areas * areas); });
 }
 
-void FarCrowd::learn(std::span<const SplatModel* const> models, const scene::Crowd& crowd) {
+void FarCrowd::learn(std::span<const SplatModel* const> models) {
     leanings_.resize(figures_.size());
-    looks_.resize(crowd.blocks.size());
-    tbb::parallel_for(std::size_t{0}, looks_.size(),
-                      [&](std::size_t block) { looks_[block] = look_of(crowd, crowd.blocks[block]); });
     std::size_t keys = 0;
     for (std::size_t character = 0; character < figures_.size(); ++character) {
         scene_.metres.push_back(1.0f / figures_[character].poses->rest_height);
         scene_.first_key.push_back(static_cast<std::int32_t>(keys));
+        if (!models[character]) {
+            scene_.largest_silhouette.push_back(0.0f);
+            for (auto* center : {&scene_.center_x, &scene_.center_y, &scene_.center_z}) center->push_back(0.0f);
+            continue;
+        }
         const FarLooks looks(figures_[character], *models[character]);
         leanings_[character] = looks.leanings;
         scene_.largest_silhouette.push_back(looks.largest_silhouette);
@@ -432,6 +434,13 @@ void FarCrowd::learn(std::span<const SplatModel* const> models, const scene::Cro
         scene_.height.push_back(shape.height);
         keys += looks.rows.size() / (far_key_rows * far_row_values);
     }
+}
+
+void FarCrowd::look_at(const scene::Crowd& crowd) {
+    crowd_ = &crowd;
+    looks_.resize(crowd.blocks.size());
+    tbb::parallel_for(std::size_t{0}, looks_.size(),
+                      [&](std::size_t block) { looks_[block] = look_of(crowd, crowd.blocks[block]); });
 }
 
 FarCrowd::Look FarCrowd::look_of(const scene::Crowd& crowd, const scene::CrowdBlock& block) {
@@ -477,6 +486,7 @@ void FarCrowd::prepare(const Frame& frame, float cell) {
     scene_.forward = view.forward;
     scene_.cells_at_one_metre = view.pixels_per_metre(1.0f) / cell;
     scene_.center = {0.5f / cell * static_cast<float>(view.width), 0.5f / cell * static_cast<float>(view.height)};
+    if (!frame.far_blocks.empty() && frame.far_people.crowd != crowd_) look_at(*frame.far_people.crowd);
     by_depth_ = frame.far_blocks;
     std::ranges::stable_sort(by_depth_, {}, &FarBlock::depth);
     blocks_.resize(by_depth_.size());
@@ -501,7 +511,7 @@ FarBlockOnScreen FarCrowd::ready(const View& view, const FarBlock& far) const {
     out.first = block.first;
     out.count = block.count;
     const glm::vec3 middle = view.relative(block.box.center());
-    const Between between = between_nodes(-middle);
+    const Between between = between_nodes(middle == glm::vec3(0.0f) ? -view.forward : -middle);
     out.leaning = leaning_of(look, static_cast<float>(between.node[0] / ring_nodes) + between.up);
     constexpr float usual_height = 1.75f, low = 1.25f;  // [m], [cells]
     const float height = scene_.height[look.character] * scene_.metres[look.character] * usual_height * view.up.y;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "figures/figure.h"
+#include "figures/splats.h"
 #include "render/frame.h"
 #include "render/native/far_looks.h"
 #include "render/native/near_layer.h"
@@ -28,6 +29,7 @@ struct FarBlockOnScreen : InDepth {
     std::int16_t x0, y0, x1, y1;  // [cells] what they may touch
 
     Rect cells() const { return {x0, y0, x1, y1}; }
+    float nearest() const { return depth - reach; }  // [m] view depth
 };
 
 // What becomes of areas that fell on a cell, by how much they are together, in steps of 2^far_cover_shift.
@@ -61,12 +63,14 @@ public:
     // `figures` must outlive it.
     FarCrowd(std::span<const figures::Figure> figures, const scene::Light& light);
 
-    // What everybody is drawn from. `models`: a character each, null where nobody is of it.
-    void learn(std::span<const SplatModel* const> models, const scene::Crowd& crowd);
+    // What everybody is drawn from. `models`: a character each, null where nobody of it is ever in a far block.
+    void learn(std::span<const SplatModel* const> models);
     std::size_t characters() const { return figures_.size(); }
+    // Whether anybody of it may be in a far block.
+    bool can_draw(std::size_t character) const { return !figures::splat_levels(figures_[character]).empty(); }
     bool knows() const { return !scene_.rows.empty(); }
 
-    // Of one frame, the nearest first; `cell` [px]. After learn().
+    // Of one frame, the nearest first; `cell` [px]. After learn(). A crowd stays as it is while frames of it are drawn.
     void prepare(const Frame& frame, float cell);
     std::span<const FarBlockOnScreen> blocks() const { return blocks_; }
     std::span<const Rect> bounds() const { return bounds_; }  // [px] that each may touch
@@ -78,6 +82,7 @@ public:
     void prefetch(const FarBlockOnScreen& block) const;
 
 private:
+    void look_at(const scene::Crowd& crowd);
     FarBlockOnScreen ready(const View& view, const FarBlock& block) const;
 
     // What a block's people are like.
@@ -91,6 +96,7 @@ private:
 
     std::vector<figures::Figure> figures_;
     std::vector<std::array<Leaning, rings>> leanings_;  // by character
+    const scene::Crowd* crowd_ = nullptr;               // whose looks are known
     std::vector<Look> looks_;                           // by Crowd::blocks
     FarScene scene_;
     std::vector<FarBlock> by_depth_;

@@ -67,7 +67,7 @@ bool Renderer::is_drawn_already(const Frame& frame) const {
     static_assert(sizeof(Person) == sizeof(Instance) + 36);  // nothing in it but what is compared
     return has_picture_ && frame.splat_size == drawn_splat_size_ && frame.people.size() == drawn_.size() &&
            std::memcmp(frame.people.data(), drawn_.data(), drawn_.size() * sizeof(Person)) == 0 &&
-           frame.far_blocks == drawn_far_;
+           frame.far_blocks == drawn_far_ && frame.far_people.crowd == drawn_crowd_;
 }
 
 void Renderer::draw(const Frame& frame) {
@@ -81,6 +81,7 @@ void Renderer::draw(const Frame& frame) {
     for_each_tile(grid_.count(), [&](std::size_t tile) { draw_tile(tile); });
     drawn_ = frame.people;
     drawn_far_ = frame.far_blocks;
+    drawn_crowd_ = frame.far_people.crowd;
     drawn_splat_size_ = frame.splat_size;
     has_picture_ = true;
 }
@@ -100,9 +101,9 @@ void Renderer::part_people(const Frame& frame) {
 void Renderer::prepare_far(const Frame& frame) {
     if (!frame.far_blocks.empty() && !far_.knows()) {
         std::vector<const SplatModel*> models;
-        for (std::size_t character = 0; character < far_.characters(); ++character)
-            models.push_back(&points_.model(static_cast<std::uint32_t>(character)));
-        far_.learn(models, *frame.far_people.crowd);
+        for (std::uint32_t character = 0; character < far_.characters(); ++character)
+            models.push_back(far_.can_draw(character) ? &points_.model(character) : nullptr);
+        far_.learn(models);
     }
     far_.prepare(frame, points_.cell());
 }
@@ -138,30 +139,30 @@ void Renderer::draw_tile(std::size_t index) {
     std::span<const std::uint32_t> others = point_lists_.of(index);
     Easel& easel = easels_.local();
     const float far_end = draw_near(index, easel);  // 0: nobody is near
-    const std::span<const std::uint32_t> far = far_lists_.of(index);
+    std::span<const std::uint32_t> far = far_lists_.of(index);
     if (others.empty() && far.empty() && far_end == 0) return show(tile, shade_backdrop(index, easel));
     easel.cover.begin(tile, behind_, points_.cell(), far_end > 0 ? &easel.near : nullptr);
     if (far_end > 0) {
         // Who may be in front of somebody near comes before them and, for what is behind, once more after them.
-        std::size_t mixed = 0;
+        std::size_t mixed = 0, mixed_far = 0;
         while (mixed < others.size() && points_.people()[others[mixed]].nearest() < far_end) ++mixed;
-        for (const std::uint32_t i : others.first(mixed))
-            draw_point_person(points_.people()[i], easel, Layers::before_near);
+        while (mixed_far < far.size() && far_.blocks()[far[mixed_far]].nearest() < far_end) ++mixed_far;
+        draw_others(others.first(mixed), far.first(mixed_far), easel, Layers::before_near);
         easel.cover.lay_near();
-        for (const std::uint32_t i : others.first(mixed))
-            draw_point_person(points_.people()[i], easel, Layers::behind_near);
+        draw_others(others.first(mixed), far.first(mixed_far), easel, Layers::behind_near);
         others = others.subspan(mixed);
+        far = far.subspan(mixed_far);
     }
-    draw_others(others, far, easel);
+    draw_others(others, far, easel, Layers::all);
     easel.cover.resolve(shade_backdrop(index, easel), picture_);
 }
 
 // By depth.
-void Renderer::draw_others(std::span<const std::uint32_t> people, std::span<const std::uint32_t> far,
-                           Easel& easel) const {
+void Renderer::draw_others(std::span<const std::uint32_t> people, std::span<const std::uint32_t> far, Easel& easel,
+                           Layers layers) const {
     const auto draw_block = [&] {
         if (far.size() > 1) far_.prefetch(far_.blocks()[far[1]]);
-        draw_far_block(far_.blocks()[far.front()], easel);
+        draw_far_block(far_.blocks()[far.front()], easel, layers);
         far = far.subspan(1);
     };
     for (std::size_t i = 0; i < people.size(); ++i) {
@@ -170,7 +171,7 @@ void Renderer::draw_others(std::span<const std::uint32_t> people, std::span<cons
         if (i + very_soon < people.size()) points_.people()[people[i + very_soon]].prefetch_points();
         const SplatPerson& person = points_.people()[people[i]];
         while (!far.empty() && far_.blocks()[far.front()].depth < person.depth) draw_block();
-        draw_point_person(person, easel, Layers::all);
+        draw_point_person(person, easel, layers);
     }
     while (!far.empty()) draw_block();
 }
@@ -206,11 +207,11 @@ void Renderer::draw_point_person(const SplatPerson& person, Easel& easel, Layers
     easel.cover.lay(person, patch, layers);
 }
 
-void Renderer::draw_far_block(const FarBlockOnScreen& block, Easel& easel) const {
+void Renderer::draw_far_block(const FarBlockOnScreen& block, Easel& easel, Layers layers) const {
     const Patch patch = patch_for(block.cells(), easel);
     if (!patch.cells) return;
     far_.splat(block, patch);
-    easel.cover.lay(block, patch, Layers::all);
+    easel.cover.lay(block, patch, layers);
 }
 
 // For what of these cells can be seen; without cells if there is none.

@@ -65,8 +65,9 @@ private:
     void show(const Tile& tile, const TileColors& colors);
     float draw_near(std::size_t tile, Easel& easel) const;
     static Patch patch_for(const Rect& cells, Easel& easel);
-    void draw_others(std::span<const std::uint32_t> people, std::span<const std::uint32_t> far, Easel& easel) const;
-    void draw_far_block(const FarBlockOnScreen& block, Easel& easel) const;
+    void draw_others(std::span<const std::uint32_t> people, std::span<const std::uint32_t> far, Easel& easel,
+                     Layers layers) const;
+    void draw_far_block(const FarBlockOnScreen& block, Easel& easel, Layers layers) const;
     void draw_point_person(const SplatPerson& person, Easel& easel, Layers layers) const;
 
     Backdrop backdrop_;
@@ -86,6 +87,7 @@ private:
     bool has_picture_ = false;  // of view_ and drawn_
 
     std::vector<FarBlock> drawn_far_;
+    const scene::Crowd* drawn_crowd_ = nullptr;
     std::vector<const Person*> near_people_, point_people_, unsorted_;
     std::vector<std::uint32_t> counts_;  // of the sort
     std::vector<ContactShade> shades_;
