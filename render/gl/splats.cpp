@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "figures/splats.h"
 #include "render/gl/program.h"
 #include "render/gl/upload.h"
 #include "render/native/far_looks.h"
