@@ -120,7 +120,9 @@ std::uint32_t stage(const FarScene& scene, const FarBlockOnScreen& block, Part p
     };
     const Int x = place(hn::Mul(along(scene.right), cells_per_metre), scene.center[0], patch.x0);
     const Float cells = hn::Mul(cells_per_metre, scale);
-    const Float down = hn::Mul(hn::Mul(cells, of_character(scene.height)), set(0.25f * part.quarters * scene.up.y));
+    // Who is low in cells is as well one splat: both halves of it lie in the middle.
+    const Float tall = hn::Mul(hn::Mul(cells, of_character(scene.height)), set(scene.up.y));
+    const Float down = hn::IfThenElseZero(hn::Gt(tall, set(lowest_tall)), hn::Mul(tall, set(0.25f * part.quarters)));
     const Int y = place(hn::Sub(down, hn::Mul(along(scene.up), cells_per_metre)), scene.center[1], patch.y0);
     const auto within = [&](Int where, int size) HWY_ATTR {
         return hn::And(hn::Gt(where, hn::Set(ints, -1)), hn::Lt(where, hn::Set(ints, (size - 1) << cell_bits)));
@@ -513,9 +515,12 @@ FarBlockOnScreen FarCrowd::ready(const View& view, const FarBlock& far) const {
     const glm::vec3 middle = view.relative(block.box.center());
     const Between between = between_nodes(middle == glm::vec3(0.0f) ? -view.forward : -middle);
     out.leaning = leaning_of(look, static_cast<float>(between.node[0] / ring_nodes) + between.up);
-    constexpr float usual_height = 1.75f, low = 1.25f;  // [m], [cells]
-    const float height = scene_.height[look.character] * scene_.metres[look.character] * usual_height * view.up.y;
-    out.is_tall = height * scene_.cells_at_one_metre > low * far.depth;
+    constexpr float tallest = 2.0f;  // [m]
+    float height = 0;
+    for (std::size_t character = 0; character < figures_.size(); ++character)
+        if (look.is_mixed || character == look.character)
+            height = std::max(height, scene_.height[character] * scene_.metres[character] * tallest * view.up.y);
+    out.is_tall = height * scene_.cells_at_one_metre > lowest_tall * std::max(depths.nearest, near_plane);
     glm::vec2 from(INFINITY), to(-INFINITY);
     for (int corner = 0; corner < 8; ++corner) {
         const glm::vec3 at = view.relative({corner & 1 ? block.box.max.x : block.box.min.x,

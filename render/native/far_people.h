@@ -19,13 +19,16 @@
 
 namespace render::native {
 
+// [cells] Who is higher is two splats, one above the other.
+inline constexpr float lowest_tall = 1.25f;
+
 // A block as it is drawn.
 struct FarBlockOnScreen : InDepth {
     std::int32_t character;        // of all its people; < 0: they are of several
     std::uint32_t first, count;    // people
     std::array<float, 3> leaning;  // of red, green, blue: 12 times Leaning's lean over its mean
     bool in_rows;
-    bool is_tall;                 // so high in cells that one splat would be too short
+    bool is_tall;                 // somebody may be two splats
     std::int16_t x0, y0, x1, y1;  // [cells] what they may touch
 
     Rect cells() const { return {x0, y0, x1, y1}; }

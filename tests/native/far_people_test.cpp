@@ -204,7 +204,7 @@ TEST(FarPerson, CoversMoreOffThePicturesMiddle) {
             const render::View view = alone.view(i, 1.0, azimuth_of(i), 0.6 * elevation_of(i, many), 2.0, corner);
             off.add(alone.drawn(i, view).g, alone.truth(i, view, samples).covered);
         }
-        EXPECT_NEAR(off.mean(), 0, 0.02) << corner.x << " " << corner.y;
+        EXPECT_NEAR(off.mean(), 0, 0.025) << corner.x << " " << corner.y;
         EXPECT_LT(off.deviation(), 0.03);
         EXPECT_LT(off.worst, 0.12);
     }
@@ -445,7 +445,7 @@ TEST(FarPeople, CoverByChanceWhatTheirAreasSay) {
             return shares;
         };
         const auto share = [&](double areas) {
-            return role == scene::Role::standing ? 1 - std::exp(-areas) : areas / std::cbrt(1 + std::pow(areas, 3));
+            return role == scene::Role::standing ? 1 - std::exp(-areas) : areas / std::sqrt(1 + areas * areas);
         };
         // Of ten little is rounded: what they add up to is found back from what they cover.
         std::vector<double> areas = covered(4);
