@@ -66,7 +66,7 @@ Surroundings Renderer::begin(const View& view) {
 bool Renderer::is_drawn_already(const Frame& frame) const {
     static_assert(sizeof(Person) == sizeof(Instance) + 36);  // nothing in it but what is compared
     return has_picture_ && frame.splat_size == drawn_splat_size_ && frame.people.size() == drawn_.size() &&
-           std::memcmp(frame.people.data(), drawn_.data(), drawn_.size() * sizeof(Person)) == 0 &&
+           (drawn_.empty() || std::memcmp(frame.people.data(), drawn_.data(), drawn_.size() * sizeof(Person)) == 0) &&
            frame.far_blocks == drawn_far_ && frame.far_people.crowd == drawn_crowd_;
 }
 

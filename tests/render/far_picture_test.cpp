@@ -189,13 +189,16 @@ TEST_F(FarPicture, OfAnotherCrowdIsItsOwnAndNeedsNoPointsOfOthers) {
     const motion::PoseTable bare = motion::bake_poses(built_in().character, {}, {}, std::size_t{1} << 24);
     const std::vector<figures::Figure> all{built_in().figure(), {&built_in().character.mesh, &bare, nullptr}};
     const std::vector<figures::Figure> one{built_in().figure()};
-    const Likes first(one, 1.6, 3, 20), second(one, 1.6, 4, 20);
+    const Likes first(one, 1.6, 3, 20);
+    Likes second(one, 1.6, 4, 20);
     render::gl::Renderer renderer(nothing(), {}, before_black(), all, side, side);
     render::gl::Renderer fresh(nothing(), {}, before_black(), one, side, side);
     shoot(renderer, first.frame());
     const render::Image drawn = shoot(renderer, second.frame());
     EXPECT_GT(light_each(drawn).r, 0.01);
     EXPECT_EQ(drawn.pixels, shoot(fresh, second.frame()).pixels);
+    std::ranges::fill(second.people.keys, std::uint8_t{2});  // and they move
+    EXPECT_NE(shoot(renderer, second.frame()).pixels, drawn.pixels);
 }
 
 // The stadium from so far that all are a pixel or two tall: squares of it, against the native picture, and against
