@@ -61,7 +61,8 @@ void set_state(StadiumOptions& options, const std::string& text) {
 
 void add_scene_options(CLI::App& app, StadiumOptions& options) {
     constexpr std::uint64_t any = std::numeric_limits<std::uint64_t>::max();
-    app.add_option("--people", options.people, "How many people: of a million each takes 60 bytes, in view 500")
+    app.add_option("--people", options.people,
+                   "How many people: of a million each takes 60 bytes, drawn one by one 500 more")
         ->check(whole_number(1, 10'000'000))
         ->capture_default_str();
     app.add_option("--pour-in", options.pour_in, "Seconds in which the people come in (default: all are there)")

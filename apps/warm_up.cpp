@@ -6,8 +6,8 @@
 
 namespace apps {
 
-render::Frame one_of_each(const render::View& view, const scene::Crowd& crowd,
-                          std::span<const figures::Figure> figures, const figures::Way& way) {
+render::Frame one_of_each(const render::View& view, const scene::Crowd& crowd, std::span<const figures::Figure> figures,
+                          const figures::Way& way) {
     constexpr float away = 30.0f;  // [m]
     render::Frame frame;
     frame.view = view;

@@ -1,5 +1,6 @@
 // Whole frames of the demo's stadium, 20,000 people at 1280x720: full triangles by OpenGL beside the native renderer,
-// how good their pictures are, and what a piece of work costs; and of a million. docs/measurements/native.md says how to read it.
+// how good their pictures are, and what a piece of work costs; and of a million. docs/measurements/native.md says how
+// to read it.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

@@ -12,9 +12,25 @@
 #include "pointsample/sample.h"
 #include "render/frame.h"
 #include "scene/cast.h"
+#include "scene/light.h"
 #include "scene/person.h"
 
 namespace tests {
+
+// Daylight before a black sky.
+inline scene::Light before_black() {
+    scene::Light light;
+    light.glare = light.haze = light.zenith = glm::vec3(0);
+    return light;
+}
+
+// The same from everywhere.
+inline scene::Light even_before_black() {
+    scene::Light light = before_black();
+    light.sun = glm::vec3(0);
+    light.from_above = light.from_below = glm::vec3(1);
+    return light;
+}
 
 // The built-in person, as a figure.
 struct FarFigure {

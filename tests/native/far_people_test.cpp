@@ -26,6 +26,8 @@
 namespace {
 
 using render::native::Renderer;
+using tests::before_black;
+using tests::even_before_black;
 using tests::FarFigure;
 using tests::FarGathering;
 using tests::FarPerson;
@@ -57,19 +59,6 @@ const FarFigure& blue() {
     static const glm::u8vec4 color(0, 0, 255, 255);
     static const FarFigure one({}, &color);
     return one;
-}
-
-scene::Light before_black() {
-    scene::Light light;
-    light.glare = light.haze = light.zenith = glm::vec3(0);
-    return light;
-}
-
-scene::Light even_before_black() {
-    scene::Light light = before_black();
-    light.sun = glm::vec3(0);
-    light.from_above = light.from_below = glm::vec3(1);
-    return light;
 }
 
 scene::Palette motley(std::uint32_t seed) {

@@ -18,6 +18,8 @@
 namespace {
 
 using FarPicture = tests::GlTest;
+using tests::before_black;
+using tests::even_before_black;
 using tests::FarFigure;
 using tests::FarGathering;
 using tests::FarPerson;
@@ -33,19 +35,6 @@ const FarFigure& white() {
     static const glm::u8vec4 color(255);
     static const FarFigure one(std::array{2, 5}, &color);
     return one;
-}
-
-scene::Light before_black() {
-    scene::Light light;
-    light.glare = light.haze = light.zenith = glm::vec3(0);
-    return light;
-}
-
-scene::Light even_before_black() {
-    scene::Light light = before_black();
-    light.sun = glm::vec3(0);
-    light.from_above = light.from_below = glm::vec3(1);
-    return light;
 }
 
 scene::StaticMesh nothing() {
