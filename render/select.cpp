@@ -234,7 +234,7 @@ void Selector::forecast_as_one(const Seen& seen) {
     for (const Group& group : groups_of(seen)) {
         const std::uint64_t until = before + group.people;
         const std::uint64_t people = until * seen.visible / all - before * seen.visible / all;
-        const float depth = std::max(view_.depth(view_.relative(group.middle)), near_plane);
+        const float depth = depth_of(group);
         forecaster_.add_block(group.character, group.role, static_cast<std::int64_t>(people), depth,
                               mean_demand_of(group), view_.pixels_per_metre(depth));
         before = until;
@@ -293,20 +293,14 @@ void Selector::choose(Seen& seen, const sfsm::Decision& decision, std::int64_t l
 void Selector::choose_as_one(Seen& seen, const sfsm::Decision& decision, std::int64_t last_tick) {
     const scene::CrowdBlock& block = crowd_.blocks[seen.block];
     const float depth = std::max(view_.depth(view_.relative(block.box.center())), near_plane);
-    int period = 1;
-    if (decision.state != sfsm::State::original)
-        period = motion::update_period(depth, static_cast<float>(decision.motion_distance), options_.theta);
-    const std::int64_t due = motion::due_tick(tick_, period, crowd_.hash[block.first]);
+    const auto [period, due] = moves_of(block.first, depth, decision);
     constexpr int ticks_a_key = 8;
     const std::int64_t key_tick = motion::due_tick(due, ticks_a_key, crowd_.hash[block.first]);
     std::int64_t& known = blocks_[seen.block].key_tick;
     if (key_tick != known) {
         for (std::size_t person = block.first; person < block.first + block.count; ++person) {
-            const std::size_t character = crowd_.character[person];
-            const motion::PoseTable& poses = *figures_[character].poses;
-            const scene::Action action = acts_.at(person, cast_[character], poses, key_tick);
-            const auto pose = static_cast<std::size_t>(poses.pose_at(action.clip, action.clip_tick));
-            far_keys_[person] = kinds_[character].keys.of_pose[pose];
+            const figures::SplatKeys& keys = kinds_[crowd_.character[person]].keys;
+            far_keys_[person] = keys.of_pose[pose_of(person, key_tick)];
         }
         known = key_tick;
     }
@@ -347,6 +341,10 @@ float Selector::depth_of(std::size_t person) const {
     return std::max(view_.depth(middle_of(person)), near_plane);
 }
 
+float Selector::depth_of(const Group& group) const {
+    return std::max(view_.depth(view_.relative(group.middle)), near_plane);
+}
+
 float Selector::demand_at_unit_splat(std::size_t person, float depth) const {
     const std::size_t character = crowd_.character[person];
     const float scale = scale_of(person);
@@ -356,9 +354,23 @@ float Selector::demand_at_unit_splat(std::size_t person, float depth) const {
 }
 
 float Selector::mean_demand_of(const Group& group) const {
-    const float pixels = view_.pixels_per_metre(std::max(view_.depth(view_.relative(group.middle)), near_plane));
+    const float pixels = view_.pixels_per_metre(depth_of(group));
     return options_.density * figures_[group.character].poses->area * kinds_[group.character].mean_square * pixels *
            pixels;
+}
+
+Selector::Moves Selector::moves_of(std::size_t person, float depth, const sfsm::Decision& decision) const {
+    int period = 1;
+    if (decision.state != sfsm::State::original)
+        period = motion::update_period(depth, static_cast<float>(decision.motion_distance), options_.theta);
+    return {period, motion::due_tick(tick_, period, crowd_.hash[person])};
+}
+
+std::uint32_t Selector::pose_of(std::size_t person, std::int64_t tick) {
+    const std::size_t character = crowd_.character[person];
+    const motion::PoseTable& poses = *figures_[character].poses;
+    const scene::Action action = acts_.at(person, cast_[character], poses, tick);
+    return static_cast<std::uint32_t>(poses.pose_at(action.clip, action.clip_tick));
 }
 
 // Where the person is now decides whether they are seen and how often they move; both change little in a period.
@@ -367,18 +379,14 @@ Person Selector::choose(std::size_t person, float depth, const sfsm::Decision& d
     const std::size_t character = crowd_.character[person];
     const scene::CastMember& member = cast_[character];
     const motion::PoseTable& poses = *figures_[character].poses;
-    int period = 1;
-    if (decision.state != sfsm::State::original)
-        period = motion::update_period(depth, static_cast<float>(decision.motion_distance), options_.theta);
-    const std::int64_t due = motion::due_tick(tick_, period, crowd_.hash[person]);
+    const auto [period, due] = moves_of(person, depth, decision);
     const auto splat_area = static_cast<float>(decision.splat_size * decision.splat_size);
     const figures::Choices& choices = kinds_[character].choices;
     const float demand = splat_area > 0 ? demand_at_unit_splat(person, depth) / splat_area : 0.0f;
     const std::uint32_t choice = splat_area > 0 ? choices.at(demand) : choices.exact();
     const auto& [representation, level] = choices.all()[choice];
     const figures::Part part = figures::part_of(level, demand);
-    const scene::Action action = acts_.at(person, member, poses, due);
-    const auto pose = static_cast<std::uint32_t>(poses.pose_at(action.clip, action.clip_tick));
+    const std::uint32_t pose = pose_of(person, due);
     const Spot spot = spot_of(person, due);
     const bool stands = crowd_.role[person] != scene::Role::spectator || !member.sits;
     seen.work += part.work;

@@ -116,7 +116,15 @@ private:
     void forecast();
     void forecast_as_one(const Seen& seen);
     std::span<const Group> groups_of(const Seen& seen) const;
+    float depth_of(const Group& group) const;        // [m] of its middle, at least the near plane
     float mean_demand_of(const Group& group) const;  // at S = 1 px
+    // How often somebody so far away moves [ticks], and when they did last.
+    struct Moves {
+        int period;
+        std::int64_t due;
+    };
+    Moves moves_of(std::size_t person, float depth, const sfsm::Decision& decision) const;
+    std::uint32_t pose_of(std::size_t person, std::int64_t tick);
     void find_far_blocks(const sfsm::Decision& decision);
     void make_room();
     void choose(Seen& seen, const sfsm::Decision& decision, std::int64_t last_tick);
