@@ -9,6 +9,7 @@
 #include <span>
 
 #include "render/contact_shade.h"
+#include "render/room.h"
 
 namespace render {
 
@@ -274,9 +275,7 @@ void Selector::make_room() {
         seen.first_drawn = static_cast<std::uint32_t>(seen.is_far ? far_blocks : people);
         (seen.is_far ? far_blocks : people) += seen.is_far ? 1 : seen.visible;
     }
-    // Not twice as much as is needed, which a vector would take.
-    if (people > frame_.people.capacity()) frame_.people.reserve(std::min(people + people / 4, crowd_.size()));
-    frame_.people.resize(people);
+    resize_anew(frame_.people, people, crowd_.size());
     frame_.far_blocks.resize(far_blocks);
 }
 

@@ -2,6 +2,7 @@
 // can be interpolated between four of them.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <glm/glm.hpp>
 
@@ -26,6 +27,13 @@ constexpr int opposite_of(int node) {
 // Whether several nodes coincide there.
 constexpr bool is_pole(int node) {
     return node / ring_nodes % (rings - 1) == 0;
+}
+
+// What is the same for all nodes of a pole is kept once, under this number.
+inline constexpr int distinct_directions = direction_nodes - 2 * (ring_nodes - 1);
+constexpr int distinct_of(int node) {
+    constexpr int others_of_pole = ring_nodes - 1;
+    return std::clamp(node - others_of_pole, 0, distinct_directions - 1);
 }
 
 // The four nodes around a direction, and their shares, which sum to 1.

@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "render/contact_shade.h"
 #include "render/native/cell_grid.h"
+#include "render/room.h"
 
 namespace render::native {
 
@@ -182,22 +184,30 @@ void weigh(const Sight& sight, const Gains& gains, SplatPerson& out) {
     out.area_each = gain * covers * model.area() * cells / sight.samples;
 }
 
+// Linear light of each code, 32767 = 1.
+const std::array<std::int16_t, 256> linear_of_code = [] {
+    std::array<std::int16_t, 256> table;
+    for (int code = 0; code < 256; ++code) {
+        const float share = static_cast<float>(code) / 255.0f;
+        table[code] = fixed(share * share);
+    }
+    return table;
+}();
+
 void color(const Sight& sight, SplatPerson& out) {
     for (int channel = 0; channel < 3; ++channel) {
         out.palette[channel] = {};
         out.palette[channel][model::no_slot] = 32767;
-        for (int slot = 1; slot <= model::slot_count; ++slot) {
-            const std::uint8_t code = sight.person.instance.palette[static_cast<model::Slot>(slot)][channel];
-            const float share = static_cast<float>(code) / 255.0f;
-            out.palette[channel][slot] = fixed(share * share);
-        }
+        for (int slot = 1; slot <= model::slot_count; ++slot)
+            out.palette[channel][slot] =
+                linear_of_code[sight.person.instance.palette[static_cast<model::Slot>(slot)][channel]];
     }
     out.mean_light = {};
     if (!(out.total > 0.0f)) return;
     const SplatModel::SlotLights lights = sight.model.lights(sight.person.pose, sight.between, sight.to_sun);
     for (int channel = 0; channel < 3; ++channel)
         for (int slot = 0; slot <= model::slot_count; ++slot)
-            out.mean_light[channel] += lights[slot][channel] * (out.palette[channel][slot] / unit);
+            out.mean_light[channel] += lights[slot][channel] * (out.palette[channel][slot] * (1.0f / unit));
 }
 
 // What is too small to be drawn round; seen from aside it is smaller still.
@@ -231,23 +241,16 @@ PointPeople::PointPeople(std::span<const figures::Figure> figures, const scene::
 }
 
 void PointPeople::prepare(const View& view, double splat_size, std::span<const Person* const> people) {
-    for (const Person* person : people) model(person->character);
     cell_ = cell_of(static_cast<float>(splat_size));
-    people_.resize(people.size());
-    bounds_.resize(people.size());
+    constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
+    resize_anew(people_, people.size(), most);
+    resize_anew(bounds_, people.size(), most);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, people.size(), 256), [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            constexpr std::size_t ahead = 8;  // they lie anywhere
-            if (i + ahead < range.end()) prefetch_all(*people[i + ahead]);
-            people_[i] = ready(view, *people[i], cell_);
+            ready(view, *people[i], cell_, people_[i]);
             bounds_[i] = pixels_of(people_[i].cells(), cell_);
         }
     });
-}
-
-const SplatModel& PointPeople::model(std::uint32_t character) {
-    if (!kinds_[character]) make_kind(character);
-    return kinds_[character]->model;
 }
 
 float PointPeople::reach_of(const Person& person) const {
@@ -303,13 +306,14 @@ Gains::Trial PointPeople::draw_alone(std::uint32_t character, float cells, float
     View view = make_view(camera, side, side);
     person.instance.position = view.relative(glm::vec3(0.0f));
     // A first look tells how large the silhouette is; the field of view follows.
-    const SplatPerson first = ready(view, person, 1.0f);
-    camera.fov_y = 2.0 * std::atan(view.tan_half_y * std::sqrt(first.silhouette / cells));
+    SplatPerson drawn;
+    ready(view, person, 1.0f, drawn);
+    camera.fov_y = 2.0 * std::atan(view.tan_half_y * std::sqrt(drawn.silhouette / cells));
     view = make_view(camera, side, side);
     // Another place within the pixel.
-    const float pixel = 2.0f * view.tan_half_y * first.depth / side;
+    const float pixel = 2.0f * view.tan_half_y * drawn.depth / side;
     person.instance.position += pixel * (chance(0.414214f) * view.right + chance(0.732051f) * view.up);
-    const SplatPerson drawn = ready(view, person, 1.0f);
+    ready(view, person, 1.0f, drawn);
 
     const Patch patch = room.patch(-2, -2, largest_patch_side, largest_patch_side);
     splat(drawn, light_, patch);
@@ -323,17 +327,15 @@ Gains::Trial PointPeople::draw_alone(std::uint32_t character, float cells, float
     return out;
 }
 
-SplatPerson PointPeople::ready(const View& view, const Person& person, float cell) const {
+void PointPeople::ready(const View& view, const Person& person, float cell, SplatPerson& out) const {
     const Kind& kind = *kinds_[person.character];
     const Sight sight(view, person, kind.model, figures_[person.character].poses->box, daylight_.to_sun, cell);
-    SplatPerson out;
     take_points(sight, out);
     place(sight, out);
     find_bounds(sight, out);
     weigh(sight, kind.gains, out);
     color(sight, out);
     find_spot(sight, out);
-    return out;
 }
 
 }  // namespace render::native

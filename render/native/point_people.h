@@ -19,11 +19,14 @@ public:
     // `figures` must outlive it. A character's model is made when somebody of it is first drawn.
     PointPeople(std::span<const figures::Figure> figures, const scene::Light& light);
 
-    // Of one frame; `splat_size` S > 0 [px]. Parallel.
+    // Of one frame; `splat_size` S > 0 [px]. Their characters' models have been made. Parallel.
     void prepare(const View& view, double splat_size, std::span<const Person* const> people);
 
     // Of a character; made now, if it isn't yet.
-    const SplatModel& model(std::uint32_t character);
+    const SplatModel& model(std::uint32_t character) {
+        if (!kinds_[character]) make_kind(character);
+        return kinds_[character]->model;
+    }
     float cell() const { return cell_; }  // [px] the side of everybody's cells
     std::span<const SplatPerson> people() const { return people_; }
     std::span<const Rect> bounds() const { return bounds_; }  // [px] that each of them may touch
@@ -40,7 +43,7 @@ private:
 
     void make_kind(std::uint32_t character);
     Gains::Trial draw_alone(std::uint32_t character, float cells, float points, int trial, PatchRoom& room) const;
-    SplatPerson ready(const View& view, const Person& person, float cell) const;
+    void ready(const View& view, const Person& person, float cell, SplatPerson& out) const;
 
     std::vector<figures::Figure> figures_;
     std::vector<std::unique_ptr<Kind>> kinds_;  // by character; null: not needed yet

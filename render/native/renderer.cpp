@@ -25,6 +25,26 @@ void for_each_tile(std::size_t count, Work work) {
         tbb::simple_partitioner());
 }
 
+// Of all that is said of them: other people have another one, but for one time in 2^64. A copy of a million people to
+// compare with would take as much memory as they do.
+std::uint64_t digest_of(std::span<const Person> people) {
+    static_assert(sizeof(Person) == sizeof(Instance) + 36 && sizeof(Person) % 8 == 0);  // nothing in it is padding
+    constexpr std::size_t words = sizeof(Person) / 8;
+    std::uint64_t digest = people.size();
+    for (const Person& person : people) {
+        std::array<std::uint64_t, words> word;
+        std::memcpy(word.data(), &person, sizeof person);
+        std::uint64_t sum = 0;
+        for (std::size_t i = 0; i < words; ++i) {
+            const std::uint64_t mixed =
+                (word[i] ^ std::rotl(0x9e3779b97f4a7c15u, static_cast<int>(7 * i))) * 0xff51afd7ed558ccdu;
+            sum += mixed ^ mixed >> 32;
+        }
+        digest = std::rotl(digest ^ sum, 23) * 0xc4ceb9fe1a85ec53u;
+    }
+    return digest;
+}
+
 }  // namespace
 
 Renderer::Renderer(const scene::StaticMesh& structure, const scene::Ground& ground, const scene::Light& light,
@@ -64,13 +84,12 @@ Surroundings Renderer::begin(const View& view) {
 }
 
 bool Renderer::is_drawn_already(const Frame& frame) const {
-    static_assert(sizeof(Person) == sizeof(Instance) + 36);  // nothing in it but what is compared
-    return has_picture_ && frame.splat_size == drawn_splat_size_ && frame.people.size() == drawn_.size() &&
-           (drawn_.empty() || std::memcmp(frame.people.data(), drawn_.data(), drawn_.size() * sizeof(Person)) == 0) &&
-           frame.far_blocks == drawn_far_ && frame.far_people.crowd == drawn_crowd_;
+    return has_picture_ && frame.splat_size == drawn_splat_size_ && frame.far_blocks == drawn_far_ &&
+           frame.far_people.crowd == drawn_crowd_ && digest_ == drawn_digest_;
 }
 
 void Renderer::draw(const Frame& frame) {
+    digest_ = digest_of(frame.people);
     if (is_drawn_already(frame)) return;
     part_people(frame);
     triangles_.prepare(frame.view, near_people_);
@@ -79,23 +98,26 @@ void Renderer::draw(const Frame& frame) {
     find_contact_shades(frame, figures::natively(), shades_);
     fill_lists();
     for_each_tile(grid_.count(), [&](std::size_t tile) { draw_tile(tile); });
-    drawn_ = frame.people;
+    drawn_digest_ = digest_;
     drawn_far_ = frame.far_blocks;
     drawn_crowd_ = frame.far_people.crowd;
     drawn_splat_size_ = frame.splat_size;
     has_picture_ = true;
 }
 
-// Near ones and others, the nearest first.
+// Near ones, the nearest first, and others as they come: so they lie side by side when they are made ready.
 void Renderer::part_people(const Frame& frame) {
-    near_people_.clear();
+    unsorted_.clear();
     point_people_.clear();
     for (const Person& person : frame.people) {
         const bool is_mesh = figures::natively().representations[person.representation].is_mesh;
-        (is_mesh ? near_people_ : point_people_).push_back(&person);
+        (is_mesh ? unsorted_ : point_people_).push_back(&person);
+        if (!is_mesh) points_.model(person.character);
     }
-    sort_by_depth(near_people_);
-    sort_by_depth(point_people_);
+    near_people_.clear();
+    order_.sort(unsorted_);
+    for (const std::uint32_t number : order_.numbers()) near_people_.push_back(unsorted_[number]);
+    order_.sort(point_people_);
 }
 
 void Renderer::prepare_far(const Frame& frame) {
@@ -108,26 +130,9 @@ void Renderer::prepare_far(const Frame& frame) {
     far_.prepare(frame, points_.cell());
 }
 
-// Stable: a counting sort in two passes over the bits of the depth, which rise with it.
-void Renderer::sort_by_depth(std::vector<const Person*>& people) {
-    constexpr int digit_bits = 11;
-    constexpr std::uint32_t digits = 1u << digit_bits;
-    unsorted_.resize(people.size());
-    for (const int shift : {31 - 2 * digit_bits, 31 - digit_bits}) {
-        counts_.assign(digits + 1, 0);
-        const auto digit = [&](const Person* person) {
-            return std::bit_cast<std::uint32_t>(person->depth) >> shift & (digits - 1);
-        };
-        unsorted_.swap(people);
-        for (const Person* person : unsorted_) ++counts_[digit(person) + 1];
-        for (std::uint32_t i = 0; i < digits; ++i) counts_[i + 1] += counts_[i];
-        for (const Person* person : unsorted_) people[counts_[digit(person)]++] = person;
-    }
-}
-
 void Renderer::fill_lists() {
     near_lists_.fill(grid_, triangles_.bounds());
-    point_lists_.fill(grid_, points_.bounds());
+    point_lists_.fill(grid_, points_.bounds(), order_.numbers());
     far_lists_.fill(grid_, far_.bounds());
     shade_bounds_.clear();
     for (const ContactShade& shade : shades_) shade_bounds_.push_back(bounds_of(view_, shade));

@@ -16,6 +16,7 @@
 #include "render/native/backdrop.h"
 #include "render/native/contact_tile.h"
 #include "render/native/cover.h"
+#include "render/native/depth_order.h"
 #include "render/native/far_people.h"
 #include "render/native/near_layer.h"
 #include "render/native/picture.h"
@@ -58,7 +59,6 @@ private:
     bool is_drawn_already(const Frame& frame) const;
     void part_people(const Frame& frame);
     void prepare_far(const Frame& frame);
-    void sort_by_depth(std::vector<const Person*>& people);
     void fill_lists();
     void draw_tile(std::size_t index);
     TileColors shade_backdrop(std::size_t index, Easel& easel) const;
@@ -82,14 +82,15 @@ private:
     bool has_backdrop_ = false;  // of view_
     Occlusion occlusion_;
 
-    std::vector<Person> drawn_;  // the last frame's people, and its splats
+    // Of the last frame, and of the one that is drawn.
+    std::uint64_t drawn_digest_ = 0, digest_ = 0;
     double drawn_splat_size_ = 0;
-    bool has_picture_ = false;  // of view_ and drawn_
-
     std::vector<FarBlock> drawn_far_;
     const scene::Crowd* drawn_crowd_ = nullptr;
+    bool has_picture_ = false;  // of view_ and these
+
     std::vector<const Person*> near_people_, point_people_, unsorted_;
-    std::vector<std::uint32_t> counts_;  // of the sort
+    DepthOrder order_;  // of point_people_
     std::vector<ContactShade> shades_;
     std::vector<Rect> shade_bounds_;
     TileLists near_lists_, point_lists_, far_lists_, shade_lists_;

@@ -202,17 +202,17 @@ void SplatModel::choose_keys(const figures::Figure& figure) {
 }
 
 void SplatModel::look_around(const figures::Figure& figure) {
-    const std::size_t looks = key_poses_.size() * direction_nodes;
-    visible_.assign(looks * chunks_, 0);
-    lights_.assign(looks * sun_azimuths * light_stride, 0);
-    looks_.resize(looks);
+    const auto keys = static_cast<std::uint32_t>(key_poses_.size());
+    looks_.resize(std::size_t{keys} * direction_nodes);
+    visible_.assign(std::size_t{keys} * distinct_directions * chunks_, 0);
+    lights_.assign(std::size_t{keys} * sun_azimuths * distinct_directions * light_stride, 0);
     const Facets facets(figure);
     const float area_each = area_ / static_cast<float>(points_);
     std::vector<float> own(static_cast<std::size_t>(points_));
     for (int i = 0; i < points_; ++i)
         own[i] =
             static_cast<float>(shares_[std::size_t{chunk_points} * chunks_ * (rungs_.size() - 1) + i]) / share_unit;
-    tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(key_poses_.size()), [&](std::uint32_t key) {
+    tbb::parallel_for(std::uint32_t{0}, keys, [&](std::uint32_t key) {
         const int pose = static_cast<int>(key_poses_[key]);
         SelfOcclusion body(figure, pose, facets.in_pose(pose), own);
         const std::vector<LitPoint> lit = light_points(key_poses_[key]);
@@ -224,28 +224,19 @@ void SplatModel::look_around(const figures::Figure& figure) {
             const std::array<SelfOcclusion::Seen, 2> seen = body.look_both_ways(direction);
             for (int way = 0; way < 2; ++way) {
                 const int from = way == 0 ? node : opposite_of(node);
-                const std::size_t number = std::size_t{key} * direction_nodes + from;
-                std::ranges::copy(seen[way].visible, &visible_[number * chunks_]);
-                Look& look = looks_[number];
+                std::ranges::copy(seen[way].visible, &visible_[visible_of(key, from)]);
+                Look& look = looks_[std::size_t{key} * direction_nodes + from];
                 look.silhouette = seen[way].silhouette;
                 look.summed = area_each * seen[way].facing;
-                look.first_visible = visible_[number * chunks_];
+                look.first_visible = seen[way].visible[0];
                 find_lights(key, from, way == 0 ? direction : -direction, lit, seen[way].shown);
             }
         }
+        Look* looks = &looks_[std::size_t{key} * direction_nodes];
         for (int node = 0; node < direction_nodes; ++node)
-            if (is_pole(node)) copy_look(key, seen_of_pole(node), node);
+            if (is_pole(node)) looks[node] = looks[seen_of_pole(node)];
     });
     find_bends();
-}
-
-void SplatModel::copy_look(std::uint32_t key, int from, int to) {
-    if (from == to) return;
-    const std::size_t first = std::size_t{key} * direction_nodes;
-    std::copy_n(&visible_[(first + from) * chunks_], chunks_, &visible_[(first + to) * chunks_]);
-    looks_[first + to] = looks_[first + from];
-    for (int azimuth = 0; azimuth < sun_azimuths; ++azimuth)
-        std::copy_n(&lights_[lights_of(key, azimuth, from)], light_stride, &lights_[lights_of(key, azimuth, to)]);
 }
 
 std::vector<SplatModel::LitPoint> SplatModel::light_points(std::uint32_t pose) const {

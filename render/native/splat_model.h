@@ -72,7 +72,7 @@ public:
     // In the key pose next to this one.
     const Look& look(std::uint32_t pose, int node) const { return looks_[look_of(pose, node)]; }
     const std::uint32_t* visible(std::uint32_t pose, int node) const {  // of all chunks
-        return &visible_[look_of(pose, node) * chunks_];
+        return &visible_[visible_of(key_of_[pose], node)];
     }
     float silhouette(std::uint32_t pose, const Between& between) const;
     // What is seen from there of somebody on whom the sun shines along `to_sun`, in the model's axes: the mean linear
@@ -101,7 +101,6 @@ private:
     void pack_shares(const figures::Figure& figure);
     void choose_keys(const figures::Figure& figure);
     void look_around(const figures::Figure& figure);
-    void copy_look(std::uint32_t key, int from, int to);
     // `shown`: what is seen of each point from there.
     void find_lights(std::uint32_t key, int node, glm::vec3 direction, std::span<const LitPoint> lit,
                      std::span<const float> shown);
@@ -120,7 +119,10 @@ private:
     static constexpr int light_values = (1 + model::slot_count) * 3, light_stride = mixed_values;
     static_assert(light_values <= light_stride);
     std::size_t lights_of(std::uint32_t key, int azimuth, int node) const {
-        return ((std::size_t{key} * sun_azimuths + azimuth) * direction_nodes + node) * light_stride;
+        return ((std::size_t{key} * sun_azimuths + azimuth) * distinct_directions + distinct_of(node)) * light_stride;
+    }
+    std::size_t visible_of(std::uint32_t key, int node) const {
+        return (std::size_t{key} * distinct_directions + distinct_of(node)) * chunks_;
     }
 
     int points_ = 0, chunks_ = 0;
@@ -135,9 +137,9 @@ private:
     std::vector<std::uint32_t> key_of_;  // a pose's key pose, as a number of its own
     std::vector<std::uint32_t> key_poses_;
     std::vector<Look> looks_;             // [key][node]
-    std::vector<std::uint32_t> visible_;  // [key][node][chunk]
+    std::vector<std::uint32_t> visible_;  // [key][distinct direction][chunk]
     scene::Light light_;
-    std::vector<std::uint16_t> lights_;  // [key][azimuth of the sun][node][light_stride], light_unit = 1
+    std::vector<std::uint16_t> lights_;  // [key][azimuth of the sun][distinct direction][light_stride], light_unit = 1
 };
 
 }  // namespace render::native

@@ -15,8 +15,17 @@ Tile TileGrid::tile(std::size_t index) const {
     return {x0, y0, std::min(x0 + tile_side, width), std::min(y0 + tile_side, height)};
 }
 
-// Counting sort; within a tile people stay in their order.
 void TileLists::fill(const TileGrid& grid, std::span<const Rect> bounds) {
+    fill(grid, bounds, bounds.size(), [](std::size_t i) { return static_cast<std::uint32_t>(i); });
+}
+
+void TileLists::fill(const TileGrid& grid, std::span<const Rect> bounds, std::span<const std::uint32_t> order) {
+    fill(grid, bounds, order.size(), [order](std::size_t i) { return order[i]; });
+}
+
+// Counting sort; within a tile people stay in their order.
+template <typename Number>
+void TileLists::fill(const TileGrid& grid, std::span<const Rect> bounds, std::size_t count, Number number) {
     const auto for_each_tile = [&](const Rect& rect, auto visit) {
         const int x0 = std::max(rect.x0, 0), x1 = std::min(rect.x1, grid.width);
         const int y0 = std::max(rect.y0, 0), y1 = std::min(rect.y1, grid.height);
@@ -30,8 +39,8 @@ void TileLists::fill(const TileGrid& grid, std::span<const Rect> bounds) {
     for (std::uint32_t& begin : begin_) total += begin, begin = total;
     people_.resize(total);
     // From the last on, each beginning moves down to where it is.
-    for (std::size_t i = bounds.size(); i > 0; --i)
-        for_each_tile(bounds[i - 1], [&](int tile) { people_[--begin_[tile]] = static_cast<std::uint32_t>(i - 1); });
+    for (std::size_t i = count; i > 0; --i)
+        for_each_tile(bounds[number(i - 1)], [&](int tile) { people_[--begin_[tile]] = number(i - 1); });
 }
 
 }  // namespace render::native

@@ -25,12 +25,17 @@ class TileLists {
 public:
     // `bounds`: pixels that each may touch, anywhere; one that is empty or outside of the picture is in no tile.
     void fill(const TileGrid& grid, std::span<const Rect> bounds);
+    // In the order of these numbers.
+    void fill(const TileGrid& grid, std::span<const Rect> bounds, std::span<const std::uint32_t> order);
 
     std::span<const std::uint32_t> of(std::size_t tile) const {
         return {people_.data() + begin_[tile], begin_[tile + 1] - begin_[tile]};
     }
 
 private:
+    template <typename Number>
+    void fill(const TileGrid& grid, std::span<const Rect> bounds, std::size_t count, Number number);
+
     std::vector<std::uint32_t> begin_;   // per tile, then the total
     std::vector<std::uint32_t> people_;  // numbers, tile after tile
 };
