@@ -33,7 +33,7 @@ Selector::Selector(const scene::Crowd& crowd, std::span<const scene::CastMember>
       figures_(figures.begin(), figures.end()),
       options_(options),
       acts_(crowd),
-      depth_(crowd.size()),
+      depth_(std::make_unique_for_overwrite<float[]>(crowd.size())),
       far_keys_(crowd.size()) {
     for (const figures::Figure& figure : figures_) {
         Kind& kind = kinds_.emplace_back(Kind{.choices = figures::Choices(figure, *options_.way)});

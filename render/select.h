@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -156,8 +157,10 @@ private:
     std::int64_t tick_ = 0;
     Surroundings around_;
     scene::RememberedActs acts_;
-    std::vector<Seen> seen_;    // in the crowd's order
-    std::vector<float> depth_;  // [m] per person of those not whole; unseen: not in view; behind: hidden
+    std::vector<Seen> seen_;  // in the crowd's order
+    // [m] per person of those not whole; unseen: not in view; behind: hidden. Where nobody was ever asked, its memory
+    // isn't touched.
+    std::unique_ptr<float[]> depth_;
     Forecaster forecaster_;
     Survey survey_;
 

@@ -356,6 +356,8 @@ StaticMesh build_structure(const StadiumPlan& plan) {
     builder.close_sector();
     builder.ground();
     builder.close_sector();
+    builder.mesh.vertices.shrink_to_fit();
+    builder.mesh.indices.shrink_to_fit();
     return std::move(builder.mesh);
 }
 
