@@ -4,9 +4,7 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <ctime>
 #include <functional>
 #include <string>
 #include <vector>
@@ -16,19 +14,16 @@
 #include "tests/bench/million.h"
 #include "tests/bench/shooter.h"
 #include "tests/bench/stand_light.h"
+#include "tests/bench/times.h"
 
 namespace {
 
+using bench::median;
 using bench::Shooter;
 using bench::stadium;
+using bench::Times;
 
 constexpr const char* shot_presets[] = {"still", "close", "medium", "remote"};
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 // Frame after frame of a camera that stands still or is nudged by a millimetre a frame, so that the native background
 // is painted anew.
@@ -132,26 +127,6 @@ void draw_8k(benchmark::State& state, const std::string& preset, Film::Camera ca
     state.SetItemsProcessed(state.iterations() * size.width * size.height);
     set_sizes();
 }
-
-// Milliseconds by the clock and of the process' threads together.
-struct Times {
-    std::vector<double> wall, process;
-
-    template <typename Work>
-    void take(Work work) {
-        const auto process_ms = [] {
-            timespec now{};
-            clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-            return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-        };
-        using milliseconds = std::chrono::duration<double, std::milli>;
-        const double process_start = process_ms();
-        const auto start = std::chrono::steady_clock::now();
-        work();
-        wall.push_back(milliseconds(std::chrono::steady_clock::now() - start).count());
-        process.push_back(process_ms() - process_start);
-    }
-};
 
 // Both sides in turn, so that whatever else the machine does falls on both. The crowd: a frame with everybody less one
 // with nobody, whose picture is composed each time, too.

@@ -1,8 +1,9 @@
 #include "tests/bench/fidelity.h"
 
-#include <array>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 namespace bench {
@@ -11,105 +12,114 @@ namespace {
 
 constexpr double top = 255.0;
 
-std::vector<double> luma_of(const render::Image& image) {
-    std::vector<double> luma;
+Plane luma_of(const render::Image& image) {
+    Plane luma{image.width, image.height, {}};
+    luma.values.reserve(image.pixels.size() / 3);
     for (std::size_t i = 0; i + 2 < image.pixels.size(); i += 3)
-        luma.push_back(0.299 * image.pixels[i] + 0.587 * image.pixels[i + 1] + 0.114 * image.pixels[i + 2]);
+        luma.values.push_back(0.299 * image.pixels[i] + 0.587 * image.pixels[i + 1] + 0.114 * image.pixels[i + 2]);
     return luma;
 }
 
-constexpr int window_reach = 5;
-using Window = std::array<double, 2 * window_reach + 1>;
-
-Window gaussian() {
-    constexpr double deviation = 1.5;
-    Window window;
-    double sum = 0;
-    for (int i = -window_reach; i <= window_reach; ++i)
-        sum += window[i + window_reach] = std::exp(-0.5 * i * i / (deviation * deviation));
-    for (double& weight : window) weight /= sum;
-    return window;
-}
-
 // Weighted means around each pixel; at the picture's edge the window is cut and its weights are made to sum to 1.
-std::vector<double> blurred(const std::vector<double>& values, int width, int height) {
-    const Window window = gaussian();
-    const auto along = [&](const std::vector<double>& from, int count, int lines, int step, int line_step) {
-        std::vector<double> to(from.size());
-        for (int line = 0; line < lines; ++line)
-            for (int at = 0; at < count; ++at) {
-                double sum = 0, weights = 0;
-                for (int i = -window_reach; i <= window_reach; ++i) {
-                    if (at + i < 0 || at + i >= count) continue;
-                    sum +=
-                        window[i + window_reach] * from[static_cast<std::size_t>(line) * line_step + (at + i) * step];
-                    weights += window[i + window_reach];
-                }
-                to[static_cast<std::size_t>(line) * line_step + at * step] = sum / weights;
-            }
-        return to;
-    };
-    return along(along(values, width, height, 1, width), height, width, width, 1);
+Plane blurred(const Plane& plane) {
+    constexpr int reach = 5;
+    constexpr double deviation = 1.5;
+    Taps window;
+    double sum = 0;
+    for (int i = -reach; i <= reach; ++i) {
+        window.push_back(std::exp(-0.5 * i * i / (deviation * deviation)));
+        sum += window.back();
+    }
+    for (double& weight : window) weight /= sum;
+    return filtered_down(filtered_across(plane, window, Border::is_cut), window, Border::is_cut);
 }
 
-std::vector<double> product(const std::vector<double>& a, const std::vector<double>& b) {
-    std::vector<double> out(a.size());
-    for (std::size_t i = 0; i < a.size(); ++i) out[i] = a[i] * b[i];
+Plane product(const Plane& a, const Plane& b) {
+    Plane out = a;
+    for (std::size_t i = 0; i < out.values.size(); ++i) out.values[i] *= b.values[i];
     return out;
+}
+
+bool counts(Mask mask, std::size_t pixel) {
+    return mask.empty() || mask[pixel] != 0;
 }
 
 }  // namespace
 
-double psnr(const render::Image& reference, const render::Image& test) {
-    double sum = 0;
+double psnr(const render::Image& reference, const render::Image& test, Mask mask) {
+    std::int64_t sum = 0, values = 0;
     for (std::size_t i = 0; i < reference.pixels.size(); ++i) {
-        const double off = static_cast<double>(reference.pixels[i]) - test.pixels[i];
+        if (!counts(mask, i / 3)) continue;
+        const int off = reference.pixels[i] - test.pixels[i];
         sum += off * off;
+        ++values;
     }
     if (sum == 0) return std::numeric_limits<double>::infinity();
-    return 10.0 * std::log10(top * top * static_cast<double>(reference.pixels.size()) / sum);
+    return 10.0 * std::log10(top * top * static_cast<double>(values) / static_cast<double>(sum));
+}
+
+SsimReference::SsimReference(const render::Image& reference)
+    : luma_(luma_of(reference)), mean_(blurred(luma_)), mean_square_(blurred(product(luma_, luma_))) {}
+
+std::vector<double> SsimReference::similarities(const render::Image& test) const {
+    constexpr double c1 = 0.01 * 0.01 * top * top, c2 = 0.03 * 0.03 * top * top;
+    const Plane luma = luma_of(test), mean = blurred(luma);
+    const Plane mean_square = blurred(product(luma, luma)), mean_product = blurred(product(luma_, luma));
+    std::vector<double> out(luma.values.size());
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const double mx = mean_.values[i], my = mean.values[i];
+        const double vx = mean_square_.values[i] - mx * mx, vy = mean_square.values[i] - my * my;
+        const double vxy = mean_product.values[i] - mx * my;
+        out[i] = (2 * mx * my + c1) * (2 * vxy + c2) / ((mx * mx + my * my + c1) * (vx + vy + c2));
+    }
+    return out;
 }
 
 double ssim(const render::Image& reference, const render::Image& test) {
-    const int width = reference.width, height = reference.height;
-    const std::vector<double> x = luma_of(reference), y = luma_of(test);
-    const auto blur = [&](const std::vector<double>& values) { return blurred(values, width, height); };
-    const std::vector<double> mx = blur(x), my = blur(y);
-    const std::vector<double> xx = blur(product(x, x)), yy = blur(product(y, y)), xy = blur(product(x, y));
-    constexpr double c1 = 0.01 * 0.01 * top * top, c2 = 0.03 * 0.03 * top * top;
-    double sum = 0;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        const double vx = xx[i] - mx[i] * mx[i], vy = yy[i] - my[i] * my[i], vxy = xy[i] - mx[i] * my[i];
-        sum += (2 * mx[i] * my[i] + c1) * (2 * vxy + c2) / ((mx[i] * mx[i] + my[i] * my[i] + c1) * (vx + vy + c2));
-    }
-    return sum / static_cast<double>(x.size());
+    const std::vector<double> all = SsimReference(reference).similarities(test);
+    return std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size());
 }
 
-glm::dvec3 mean_light(const render::Image& image) {
+glm::dvec3 mean_light(const render::Image& image, Mask mask) {
     glm::dvec3 sum(0);
-    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-        const double code = image.pixels[i] / top;
-        sum[static_cast<int>(i % 3)] += code * code;
+    double pixels = 0;
+    for (std::size_t pixel = 0; pixel < image.pixels.size() / 3; ++pixel) {
+        if (!counts(mask, pixel)) continue;
+        for (int channel = 0; channel < 3; ++channel) {
+            const double code = image.pixels[3 * pixel + channel] / top;
+            sum[channel] += code * code;
+        }
+        ++pixels;
     }
-    return sum / (static_cast<double>(image.width) * image.height);
+    return pixels > 0 ? sum / pixels : sum;
+}
+
+double change_error(const render::Image& before, const render::Image& now, const render::Image& reference_before,
+                    const render::Image& reference_now) {
+    std::int64_t sum = 0;
+    for (std::size_t i = 0; i < now.pixels.size(); ++i)
+        sum += std::abs((now.pixels[i] - before.pixels[i]) - (reference_now.pixels[i] - reference_before.pixels[i]));
+    return static_cast<double>(sum) / static_cast<double>(now.pixels.size());
 }
 
 render::Image box_filtered(const render::Image& image, int factor) {
     render::Image out{image.width / factor, image.height / factor, {}};
-    for (int y = 0; y < out.height; ++y)
+    out.pixels.resize(std::size_t{3} * out.width * out.height);
+    const auto light_at = [&](int x, int y, int channel) {
+        const double code =
+            image.pixels[std::size_t{3} * (static_cast<std::size_t>(y) * image.width + x) + channel] / top;
+        return code * code;
+    };
+    for_each_row(out.height, [&](int y) {
+        std::uint8_t* at = &out.pixels[std::size_t{3} * y * out.width];
         for (int x = 0; x < out.width; ++x)
             for (int channel = 0; channel < 3; ++channel) {
                 double sum = 0;
                 for (int v = 0; v < factor; ++v)
-                    for (int u = 0; u < factor; ++u) {
-                        const std::size_t at =
-                            std::size_t{3} *
-                            ((static_cast<std::size_t>(y) * factor + v) * image.width + x * factor + u);
-                        const double code = image.pixels[at + channel] / top;
-                        sum += code * code;
-                    }
-                out.pixels.push_back(static_cast<std::uint8_t>(std::lround(top * std::sqrt(sum / (factor * factor)))));
+                    for (int u = 0; u < factor; ++u) sum += light_at(x * factor + u, y * factor + v, channel);
+                *at++ = static_cast<std::uint8_t>(std::lround(top * std::sqrt(sum / (factor * factor))));
             }
+    });
     return out;
 }
 

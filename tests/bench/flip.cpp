@@ -8,20 +8,14 @@
 #include <glm/glm.hpp>
 #include <numbers>
 #include <numeric>
+#include <utility>
+
+#include "tests/bench/filter.h"
 
 namespace bench {
 namespace {
 
 using std::numbers::pi;
-
-// Three planes of a picture in one.
-struct Field {
-    int width, height;
-    std::vector<glm::dvec3> pixels;
-};
-
-// One side of a separable filter, around its middle; the planes' filters side by side.
-using Taps = std::vector<glm::dvec3>;
 
 // Linear light to the CIE's XYZ, D65.
 const glm::dmat3 xyz_of_rgb =
@@ -58,130 +52,160 @@ double hyab(const glm::dvec3& a, const glm::dvec3& b) {
     return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z);
 }
 
-// `across` along the rows, then `down` along the columns, plane by plane; the border's pixels go on outside.
-Field filtered(const Field& field, const Taps& across, const Taps& down) {
-    const auto pass = [&](const Field& in, const Taps& taps, int dx, int dy) {
-        const int radius = static_cast<int>(taps.size() / 2);
-        Field out = in;
-        for (int y = 0; y < in.height; ++y) {
-            for (int x = 0; x < in.width; ++x) {
-                glm::dvec3 sum(0);
-                for (int i = -radius; i <= radius; ++i) {
-                    const int from_x = std::clamp(x + i * dx, 0, in.width - 1);
-                    const int from_y = std::clamp(y + i * dy, 0, in.height - 1);
-                    sum += taps[static_cast<std::size_t>(i + radius)] *
-                           in.pixels[static_cast<std::size_t>(from_y) * in.width + from_x];
-                }
-                out.pixels[static_cast<std::size_t>(y) * in.width + x] = sum;
-            }
+// Lightness, red-green, blue-yellow.
+using Opponent = std::array<Plane, 3>;
+
+Opponent opponent_picture(const render::Image& image) {
+    static const auto lights = [] {
+        std::array<double, 256> table{};
+        for (std::size_t i = 0; i < table.size(); ++i) {
+            const double code = static_cast<double>(i) / 255.0;
+            table[i] = code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
         }
-        return out;
-    };
-    return pass(pass(field, across, 1, 0), down, 0, 1);
+        return table;
+    }();
+    const std::size_t count = image.pixels.size() / 3;
+    Opponent out;
+    for (Plane& plane : out) plane = {image.width, image.height, std::vector<double>(count)};
+    for_each_row(image.height, [&](int y) {
+        const std::uint8_t* code = &image.pixels[std::size_t{3} * y * image.width];
+        for (int x = 0; x < image.width; ++x, code += 3) {
+            const glm::dvec3 color = opponent_of_rgb({lights[code[0]], lights[code[1]], lights[code[2]]});
+            for (int plane = 0; plane < 3; ++plane) out[plane].row(y)[x] = color[plane];
+        }
+    });
+    return out;
+}
+
+Plane filtered(const Plane& plane, const Taps& across, const Taps& down) {
+    return filtered_down(filtered_across(plane, across, Border::goes_on), down, Border::goes_on);
 }
 
 // What an eye makes of an opponent picture from where it stands: the contrast sensitivities as sums of Gaussians
 // a sqrt(pi / b) exp(-pi^2 x^2 / b) (table 1), x in degrees.
-Field seen(const Field& opponent, double pixels_per_degree) {
+Opponent seen(const Opponent& opponent, double pixels_per_degree) {
     struct Gaussian {
-        glm::dvec3 a, b;
+        double a, b;
     };
-    constexpr double nothing = 1e-5;
-    const std::array<Gaussian, 2> sum{Gaussian{{1, 1, 34.1}, {0.0047, 0.0053, 0.04}},
-                                      Gaussian{{0, 0, 13.5}, {nothing, nothing, 0.025}}};
+    static const std::array<std::vector<Gaussian>, 3> sums{
+        {{{1, 0.0047}}, {{1, 0.0053}}, {{34.1, 0.04}, {13.5, 0.025}}}};
     const int radius = static_cast<int>(std::ceil(3 * std::sqrt(0.04 / (2 * pi * pi)) * pixels_per_degree));
-    Field out = opponent;
-    std::fill(out.pixels.begin(), out.pixels.end(), glm::dvec3(0));
-    glm::dvec3 total(0);
-    for (const Gaussian& gaussian : sum) {
-        Taps taps;
-        glm::dvec3 side(0);
-        for (int i = -radius; i <= radius; ++i) {
-            const double degrees = i / pixels_per_degree;
-            taps.push_back(glm::exp(-pi * pi * degrees * degrees / gaussian.b));
-            side += taps.back();
+    Opponent out = opponent;
+    for (std::size_t plane = 0; plane < out.size(); ++plane) {
+        std::vector<double>& values = out[plane].values;
+        std::fill(values.begin(), values.end(), 0.0);
+        double total = 0;
+        for (const Gaussian& gaussian : sums[plane]) {
+            Taps taps;
+            double side = 0;
+            for (int i = -radius; i <= radius; ++i) {
+                const double degrees = i / pixels_per_degree;
+                taps.push_back(std::exp(-pi * pi * degrees * degrees / gaussian.b));
+                side += taps.back();
+            }
+            const double scale = gaussian.a * std::sqrt(pi / gaussian.b);
+            const Plane part = filtered(opponent[plane], taps, taps);
+            for (std::size_t i = 0; i < values.size(); ++i) values[i] += scale * part.values[i];
+            total += scale * side * side;
         }
-        const glm::dvec3 scale = gaussian.a * glm::sqrt(pi / gaussian.b);
-        const Field part = filtered(opponent, taps, taps);
-        for (std::size_t i = 0; i < out.pixels.size(); ++i) out.pixels[i] += scale * part.pixels[i];
-        total += scale * side * side;
+        for (double& value : values) value /= total;
     }
-    for (glm::dvec3& pixel : out.pixels) pixel /= total;
     return out;
 }
 
-// Edges and points of lightness: first and second derivatives of a Gaussian as wide as an eye resolves. The plane x has
-// the lightness smoothed across, y its first, z its second derivative; then the same downwards.
-struct Features {
-    std::vector<double> edges, points;
+// Derivatives of a Gaussian as wide as an eye resolves, the sums of whose positive and negative taps are 1 and -1.
+struct Detectors {
+    Taps smooth, edge, point;  // the Gaussian, its first and second derivative
 };
 
-Features features(const Field& opponent, double pixels_per_degree) {
+Detectors detectors(double pixels_per_degree) {
     const double deviation = 0.5 * 0.082 * pixels_per_degree;
     const int radius = static_cast<int>(std::ceil(3 * deviation));
-    Taps taps;
-    glm::dvec3 above(0), below(0);
+    Detectors found;
     for (int i = -radius; i <= radius; ++i) {
         const double gaussian = std::exp(-i * i / (2 * deviation * deviation));
-        taps.emplace_back(gaussian, -i * gaussian, (i * i / (deviation * deviation) - 1) * gaussian);
-        above += glm::max(taps.back(), 0.0);
-        below -= glm::min(taps.back(), 0.0);
+        found.smooth.push_back(gaussian);
+        found.edge.push_back(-i * gaussian);
+        found.point.push_back((i * i / (deviation * deviation) - 1) * gaussian);
     }
-    for (glm::dvec3& tap : taps)
-        for (int plane = 0; plane < 3; ++plane) tap[plane] /= tap[plane] > 0 ? above[plane] : below[plane];
-    Taps smooth;
-    for (const glm::dvec3& tap : taps) smooth.emplace_back(tap.x);
-
-    Field lightness = opponent;
-    for (glm::dvec3& pixel : lightness.pixels) pixel = glm::dvec3((pixel.x + 16) / 116);
-    const Field across = filtered(lightness, taps, smooth), down = filtered(lightness, smooth, taps);
-    Features found;
-    for (std::size_t i = 0; i < lightness.pixels.size(); ++i) {
-        found.edges.push_back(std::hypot(across.pixels[i].y, down.pixels[i].y));
-        found.points.push_back(std::hypot(across.pixels[i].z, down.pixels[i].z));
+    for (Taps* taps : {&found.smooth, &found.edge, &found.point}) {
+        double above = 0, below = 0;
+        for (const double tap : *taps) (tap > 0 ? above : below) += std::abs(tap);
+        for (double& tap : *taps) tap /= tap > 0 ? above : below;
     }
     return found;
 }
 
-Field opponent_picture(const render::Image& image) {
-    Field field{image.width, image.height, {}};
-    for (std::size_t i = 0; i + 2 < image.pixels.size(); i += 3) {
-        const auto light = [&](std::size_t k) {
-            const double code = image.pixels[i + k] / 255.0;
-            return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
-        };
-        field.pixels.push_back(opponent_of_rgb({light(0), light(1), light(2)}));
-    }
-    return field;
+// Edges and points of lightness: how strong, whatever their direction.
+struct Features {
+    std::vector<double> edges, points;
+};
+
+Features features(const Plane& opponent_lightness, double pixels_per_degree) {
+    const Detectors detect = detectors(pixels_per_degree);
+    Plane lightness = opponent_lightness;
+    for (double& value : lightness.values) value = (value + 16) / 116;
+    const Plane smooth = filtered_across(lightness, detect.smooth, Border::goes_on);
+    const auto strength = [&](const Taps& taps) {
+        const Plane across = filtered(lightness, taps, detect.smooth);
+        const Plane down = filtered_down(smooth, taps, Border::goes_on);
+        std::vector<double> out(across.values.size());
+        for (std::size_t i = 0; i < out.size(); ++i)
+            out[i] = std::sqrt(across.values[i] * across.values[i] + down.values[i] * down.values[i]);
+        return out;
+    };
+    return {strength(detect.edge), strength(detect.point)};
 }
 
-// Of two colours as seen, in [0, 1]: small differences, which are frequent, get most of the range.
+glm::dvec3 lab_of(const glm::dvec3& opponent) {
+    return hunt_lab_of_rgb(glm::clamp(rgb_of_opponent(opponent), 0.0, 1.0));
+}
+
+// Of two colours as seen, in L*a*b*, in [0, 1]: small differences, which are frequent, get most of the range.
 double color_error(const glm::dvec3& a, const glm::dvec3& b) {
     constexpr double exponent = 0.7, knee = 0.4, knee_error = 0.95;
     static const double largest = std::pow(hyab(hunt_lab_of_rgb({0, 1, 0}), hunt_lab_of_rgb({0, 0, 1})), exponent);
-    const auto lab = [](const glm::dvec3& opponent) {
-        return hunt_lab_of_rgb(glm::clamp(rgb_of_opponent(opponent), 0.0, 1.0));
-    };
-    const double share = std::pow(hyab(lab(a), lab(b)), exponent) / largest;
+    const double share = std::pow(hyab(a, b), exponent) / largest;
     return share < knee ? share / knee * knee_error : knee_error + (share - knee) / (1 - knee) * (1 - knee_error);
 }
 
 }  // namespace
 
-std::vector<float> flip_errors(const render::Image& reference, const render::Image& test, double pixels_per_degree) {
-    assert(reference.width == test.width && reference.height == test.height && reference.width > 0);
-    const Field reference_field = opponent_picture(reference), test_field = opponent_picture(test);
-    const Field reference_seen = seen(reference_field, pixels_per_degree);
-    const Field test_seen = seen(test_field, pixels_per_degree);
-    const Features a = features(reference_field, pixels_per_degree), b = features(test_field, pixels_per_degree);
-    std::vector<float> errors;
-    for (std::size_t i = 0; i < reference_seen.pixels.size(); ++i) {
-        const double feature = std::max(std::abs(a.edges[i] - b.edges[i]), std::abs(a.points[i] - b.points[i]));
-        const double feature_error = std::sqrt(feature / std::numbers::sqrt2);
-        const double color = color_error(reference_seen.pixels[i], test_seen.pixels[i]);
-        errors.push_back(static_cast<float>(std::pow(color, 1 - feature_error)));
-    }
+FlipReference::Side FlipReference::side_of(const render::Image& image, double pixels_per_degree) {
+    const Opponent opponent = opponent_picture(image);
+    const Opponent as_seen = seen(opponent, pixels_per_degree);
+    Features found = features(opponent[0], pixels_per_degree);
+    Side side{std::vector<glm::dvec3>(found.edges.size()), std::move(found.edges), std::move(found.points)};
+    for_each_row(image.height, [&](int y) {
+        glm::dvec3* color = &side.colors[static_cast<std::size_t>(y) * image.width];
+        for (int x = 0; x < image.width; ++x)
+            color[x] = lab_of({as_seen[0].row(y)[x], as_seen[1].row(y)[x], as_seen[2].row(y)[x]});
+    });
+    return side;
+}
+
+FlipReference::FlipReference(const render::Image& reference, double pixels_per_degree)
+    : pixels_per_degree_(pixels_per_degree), reference_(side_of(reference, pixels_per_degree)) {}
+
+std::vector<float> FlipReference::errors(const render::Image& test) const {
+    assert(std::size_t{3} * reference_.colors.size() == test.pixels.size());
+    const Side side = side_of(test, pixels_per_degree_);
+    std::vector<float> errors(side.colors.size());
+    for_each_row(test.height, [&](int y) {
+        const std::size_t first = static_cast<std::size_t>(y) * test.width;
+        for (std::size_t i = first; i < first + test.width; ++i) {
+            const double feature = std::max(std::abs(reference_.edges[i] - side.edges[i]),
+                                            std::abs(reference_.points[i] - side.points[i]));
+            const double feature_error = std::sqrt(feature / std::numbers::sqrt2);
+            const double color = color_error(reference_.colors[i], side.colors[i]);
+            errors[i] = static_cast<float>(std::pow(color, 1 - feature_error));
+        }
+    });
     return errors;
+}
+
+std::vector<float> flip_errors(const render::Image& reference, const render::Image& test, double pixels_per_degree) {
+    return FlipReference(reference, pixels_per_degree).errors(test);
 }
 
 double mean_flip_error(const render::Image& reference, const render::Image& test, double pixels_per_degree) {

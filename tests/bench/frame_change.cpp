@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 
+#include "tests/bench/fidelity.h"
 #include "tests/bench/shooter.h"
 
 namespace bench {
@@ -13,14 +13,6 @@ namespace {
 
 constexpr int width = 640, height = 360;  // [px]
 constexpr std::int64_t first_tick = 100;
-
-// Mean of |(b - a) - (d - c)|.
-double apart(const render::Image& a, const render::Image& b, const render::Image& c, const render::Image& d) {
-    std::int64_t sum = 0;
-    for (std::size_t i = 0; i < a.pixels.size(); ++i)
-        sum += std::abs((b.pixels[i] - a.pixels[i]) - (d.pixels[i] - c.pixels[i]));
-    return static_cast<double>(sum) / static_cast<double>(a.pixels.size());
-}
 
 struct Shots {
     render::Image reference, triangles, native[std::size(change_splat_sizes)];
@@ -45,9 +37,9 @@ Change follow(Shooting& here, Present present, int frames, const std::function<s
         Shots now = shoot(here, present, camera(frame), first_tick + frame);
         if (frame > 0) {
             const auto off = [&](const render::Image& last, const render::Image& current) {
-                return apart(last, current, before.reference, now.reference);
+                return change_error(last, current, before.reference, now.reference);
             };
-            change.reference += share * apart(before.reference, now.reference, now.reference, now.reference);
+            change.reference += share * change_error(before.reference, now.reference, now.reference, now.reference);
             const double triangles = off(before.triangles, now.triangles);
             change.triangles += share * triangles;
             change.worst_triangles = std::max(change.worst_triangles, triangles);
@@ -88,14 +80,7 @@ Change change_backing(const std::string& name, Present present) {
 Change change_panning(const std::string& name, Present present) {
     constexpr double step = 1.5;  // [px]
     const scene::CameraPose start = middle_of(preset(name));
-    const glm::dvec3 ahead = start.target - start.position;
-    const double turn = step * 2 * std::tan(0.5 * start.fov_y) / height;  // [rad] a frame
-    return follow(stadium(), present, preset_frames, [&](int frame) {
-        const double angle = turn * frame, c = std::cos(angle), s = std::sin(angle);
-        scene::CameraPose pose = start;
-        pose.target = pose.position + glm::dvec3(c * ahead.x + s * ahead.z, ahead.y, c * ahead.z - s * ahead.x);
-        return pose;
-    });
+    return follow(stadium(), present, preset_frames, [&](int frame) { return panned(start, step * frame, height); });
 }
 
 Change change_of_group() {

@@ -2,7 +2,6 @@
 
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -14,6 +13,7 @@
 #include "tests/bench/fidelity.h"
 #include "tests/bench/frame_errors.h"
 #include "tests/bench/shooter.h"
+#include "tests/bench/times.h"
 
 namespace bench {
 
@@ -101,12 +101,6 @@ void show_errors(benchmark::State& state, const std::string& camera, double spla
     state.counters["psnr"] = errors.psnr;
     state.counters["ssim"] = errors.ssim;
     state.counters["brightness"] = brightness;
-}
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 // Both crowds in turn, so that whatever else the machine does falls on both.

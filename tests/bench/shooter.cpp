@@ -1,6 +1,7 @@
 #include "tests/bench/shooter.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include "tests/bench/fidelity.h"
@@ -18,8 +19,9 @@ sfsm::Decision points_of(double splat_size) {
 
 namespace {
 
-render::SelectOptions options_of(const figures::Way& way) {
+render::SelectOptions options_of(const figures::Way& way, float density) {
     render::SelectOptions options;
+    options.density = density;
     options.way = &way;
     return options;
 }
@@ -27,14 +29,22 @@ render::SelectOptions options_of(const figures::Way& way) {
 }  // namespace
 
 Shooter::Shooter(render::Renderer& renderer, const scene::Crowd& crowd, const apps::Stage& stage,
-                 const figures::Way& way)
+                 const figures::Way& way, float density)
     : renderer_(renderer),
-      selector_(crowd, stage.cast, stage.figures(), options_of(way)),
+      selector_(crowd, stage.cast, stage.figures(), options_of(way, density)),
       needs_finish_(way.drawing == sfsm::Drawing::opengl) {}
 
-const render::Frame& Shooter::choose(const render::View& view, const sfsm::Decision& decision, std::int64_t tick) {
-    selector_.survey(view, tick, renderer_.begin(view));
+const render::Survey& Shooter::survey(const render::View& view, std::int64_t tick) {
+    return selector_.survey(view, tick, renderer_.begin(view));
+}
+
+const render::Frame& Shooter::select(const sfsm::Decision& decision, std::int64_t tick) {
     return selector_.select(decision, tick - 1);
+}
+
+const render::Frame& Shooter::choose(const render::View& view, const sfsm::Decision& decision, std::int64_t tick) {
+    survey(view, tick);
+    return select(decision, tick);
 }
 
 void Shooter::draw(const render::Frame& frame) {
@@ -82,6 +92,14 @@ Shooting& stadium() {
 
 scene::CameraPose preset(std::string_view name) {
     return stadium().stage.place.cameras.named(name).at(0);
+}
+
+scene::CameraPose panned(scene::CameraPose pose, double pixels, int height) {
+    const glm::dvec3 ahead = pose.target - pose.position;
+    const double angle = pixels * 2 * std::tan(0.5 * pose.fov_y) / height;  // [rad]
+    const double c = std::cos(angle), s = std::sin(angle);
+    pose.target = pose.position + glm::dvec3(c * ahead.x + s * ahead.z, ahead.y, c * ahead.z - s * ahead.x);
+    return pose;
 }
 
 scene::Crowd some_of(const scene::Crowd& crowd, std::uint32_t first, std::uint32_t count) {

@@ -23,8 +23,13 @@ sfsm::Decision points_of(double splat_size);  // [px]; 0: triangles
 // A renderer and whom it draws.
 class Shooter {
 public:
-    // All must outlive the shooter.
-    Shooter(render::Renderer& renderer, const scene::Crowd& crowd, const apps::Stage& stage, const figures::Way& way);
+    // All must outlive the shooter. `density`: SelectOptions::density.
+    Shooter(render::Renderer& renderer, const scene::Crowd& crowd, const apps::Stage& stage, const figures::Way& way,
+            float density = render::SelectOptions{}.density);
+
+    // The two steps of a frame before it is drawn; what they return is valid until the next.
+    const render::Survey& survey(const render::View& view, std::int64_t tick);
+    const render::Frame& select(const sfsm::Decision& decision, std::int64_t tick);
 
     // The frame, which is drawn when this returns.
     const render::Frame& shoot(const render::View& view, const sfsm::Decision& decision, std::int64_t tick);
@@ -61,6 +66,9 @@ render::Image reference(Shooter& gl, const scene::CameraPose& pose, int width, i
 Shooting& stadium();
 
 scene::CameraPose preset(std::string_view name);
+
+// Turned about the vertical until the middle of a picture of that height has moved by so many pixels.
+scene::CameraPose panned(scene::CameraPose pose, double pixels, int height);
 
 // Some of a crowd, in their order, as one block.
 scene::Crowd some_of(const scene::Crowd& crowd, std::uint32_t first, std::uint32_t count);
