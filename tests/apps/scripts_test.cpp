@@ -15,7 +15,7 @@ protected:
     void SetUp() override {
         for (const char* folder : {"tools", "tmp", "root/scripts", "root/build/release/bin", "elsewhere"})
             fs::create_directories(directory_ / folder);
-        for (const char* script : {"scripts/setup", "demo", "test"})
+        for (const char* script : {"scripts/setup", "demo", "test", "bench"})
             fs::copy_file(fs::path(GRANDSTAND_SOURCE) / script, directory_ / ("root/" + std::string(script)));
         // All that the scripts may find, besides what a test adds.
         for (const std::string tool : {"cat", "dirname", "env", "grep", "id", "mkdir", "mktemp", "rm", "tail", "tr"})
@@ -97,6 +97,16 @@ TEST_F(ScriptsWithoutGoogleTest, SetupForTestsInstallsItAndBuildsEverything) {
     EXPECT_NE(outcome.out.find("Installing: libgtest-dev xvfb\n"), std::string::npos) << outcome.out;
     EXPECT_EQ(tests::read_file(directory_ / "built"),
               "cmake --preset release -D GRANDSTAND_TESTS=ON\ncmake --build --preset release --target all\n");
+}
+
+TEST_F(ScriptsWithoutGoogleTest, BenchInstallsItBuildsTheComparisonAndPassesArgumentsOn) {
+    stand_in("root/build/release/bin/front", "for argument; do echo \"[$argument]\"; done");
+    const tests::Outcome outcome = call("bench", "--only 'native points'");
+    EXPECT_EQ(outcome.code, 0) << outcome.out;
+    EXPECT_NE(outcome.out.find("Installing: libgtest-dev\n"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("/root/out]\n[--only]\n[native points]\n"), std::string::npos) << outcome.out;
+    EXPECT_EQ(tests::read_file(directory_ / "built"),
+              "cmake --preset release -D GRANDSTAND_TESTS=ON\ncmake --build --preset release --target front\n");
 }
 
 // Everything is there but chromium-driver and cage.

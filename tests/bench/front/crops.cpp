@@ -1,0 +1,74 @@
+#include "tests/bench/front/crops.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "sfsm/number_text.h"
+
+namespace bench::front {
+
+namespace {
+
+// Letters, digits and points; whatever lies between is one dash.
+std::string as_file_name(const std::string& text) {
+    std::string name;
+    for (const char c : text) {
+        const bool stays = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.';
+        if (stays)
+            name += c;
+        else if (!name.empty() && name.back() != '-')
+            name += '-';
+    }
+    return name + ".png";
+}
+
+// Sums over all pixels above and to the left of each corner.
+std::vector<std::int64_t> corner_sums(const std::vector<std::uint8_t>& crowd, int width, int height) {
+    const std::size_t stride = static_cast<std::size_t>(width) + 1;
+    std::vector<std::int64_t> sums(stride * (static_cast<std::size_t>(height) + 1));
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            sums[(y + 1) * stride + x + 1] = sums[y * stride + x + 1] + sums[(y + 1) * stride + x] -
+                                             sums[y * stride + x] + crowd[static_cast<std::size_t>(y) * width + x];
+    return sums;
+}
+
+}  // namespace
+
+Place busiest(const std::vector<std::uint8_t>& crowd, int width, int height) {
+    const std::vector<std::int64_t> sums = corner_sums(crowd, width, height);
+    const auto sum_at = [&](int x, int y) { return sums[static_cast<std::size_t>(y) * (width + 1) + x]; };
+    Place best{0, 0, std::min(crop_width, width), std::min(crop_height, height)};
+    std::int64_t most = -1;
+    for (int y = 0; y + best.height <= height; ++y)
+        for (int x = 0; x + best.width <= width; ++x) {
+            const std::int64_t sum = sum_at(x + best.width, y + best.height) - sum_at(x, y + best.height) -
+                                     sum_at(x + best.width, y) + sum_at(x, y);
+            if (sum <= most) continue;
+            most = sum;
+            best.x = x;
+            best.y = y;
+        }
+    return best;
+}
+
+render::Image cut(const render::Image& image, const Place& place) {
+    render::Image out{place.width, place.height, {}};
+    for (int y = place.y; y < place.y + place.height; ++y) {
+        const auto first = image.pixels.begin() + std::ptrdiff_t{3} * (std::ptrdiff_t{y} * image.width + place.x);
+        out.pixels.insert(out.pixels.end(), first, first + std::ptrdiff_t{3} * place.width);
+    }
+    return out;
+}
+
+std::string crop_name(const Row& row) {
+    std::string text = std::to_string(row.people) + '-' + row.view + '-' + row.family + '-' + row.setting;
+    if (row.is_mark()) text += '-' + row.law + '-' + sfsm::number_text(row.target_ms);
+    return as_file_name(text);
+}
+
+std::string crop_name_of_reference(std::int64_t people, const std::string& view) {
+    return as_file_name(std::to_string(people) + '-' + view + "-reference");
+}
+
+}  // namespace bench::front

@@ -1,0 +1,29 @@
+// Small parts of pictures, to look at: of each row of a view the same place.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "render/image.h"
+#include "tests/bench/front/row.h"
+
+namespace bench::front {
+
+inline constexpr int crop_width = 120, crop_height = 80;  // [px]
+
+struct Place {
+    int x = 0, y = 0, width = 0, height = 0;  // [px]
+};
+
+// Where most of the crowd's pixels are (an element a pixel of a picture so large, 1 or 0); the first from the top of
+// several. All of a picture that is smaller than a crop.
+Place busiest(const std::vector<std::uint8_t>& crowd, int width, int height);
+
+render::Image cut(const render::Image& image, const Place& place);
+
+// "20000-close-native-points-S-1.4.png"; of the reference: "20000-close-reference.png".
+std::string crop_name(const Row& row);
+std::string crop_name_of_reference(std::int64_t people, const std::string& view);
+
+}  // namespace bench::front

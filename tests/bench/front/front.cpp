@@ -1,0 +1,182 @@
+// Run time against error: every way to draw in every view of four crowds, in one file. docs/front.md.
+#include <tbb/global_control.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <optional>
+
+#include "apps/interrupt.h"
+#include "apps/output.h"
+#include "apps/point_cache.h"
+#include "apps/program.h"
+#include "apps/progress.h"
+#include "render/gl/device.h"
+#include "render/gl/headless.h"
+#include "tests/bench/front/compare.h"
+#include "tests/bench/front/run.h"
+#include "tests/bench/front/unfinished.h"
+
+namespace bench::front {
+
+namespace {
+
+struct Options {
+    Part part;
+    std::string out = "out";
+    std::string committed = GRANDSTAND_QUICK;
+    std::string write;
+    bool quick = false;
+    int threads = 0;  // 0: as many as there are
+};
+
+void add_options(CLI::App& app, Options& options) {
+    constexpr std::uint64_t most_people = 1'000'000, most_threads = 1024;
+    app.add_option("--people", options.part.people, "only crowds of so many")
+        ->check(apps::whole_number(1, most_people))
+        ->delimiter(',');
+    app.add_option("--views", options.part.views, "only these views: still, close, roam-4s ...")->delimiter(',');
+    app.add_option("--only", options.part.families, "only these families: \"native points\", laws ...")->delimiter(';');
+    app.add_option("--out", options.out, "folder of front.csv and crops/")->capture_default_str();
+    app.add_option("--threads", options.threads, "threads to draw with; else one a processor")
+        ->check(apps::whole_number(1, most_threads));
+    CLI::Option* quick = app.add_flag("--quick", options.quick,
+                                      "counts and errors of 20,000 people in two views against the committed ones");
+    app.add_option("--committed", options.committed, "the file that --quick compares with")->needs(quick);
+    app.add_option("--write", options.write, "instead of comparing, write what --quick found to this file")
+        ->needs(quick);
+    apps::describe(app,
+                   "Examples:\n"
+                   "  front                      everything: out/front.csv, in some twenty minutes\n"
+                   "  front --people 20000 --views close --only \"native points;native triangles\"\n"
+                   "  front --quick              fails, and names what moved, if a count or an error did\n"
+                   "A run that was broken off goes on where it was.");
+}
+
+// The driver, where there is one.
+struct OpenGl {
+    std::unique_ptr<render::gl::HeadlessContext> context;
+    std::string driver;  // empty: there is none
+
+    OpenGl() {
+        try {
+            context = std::make_unique<render::gl::HeadlessContext>();
+            const render::gl::Device device = render::gl::read_device();
+            driver = device.renderer + ", " + device.version;
+        } catch (const std::runtime_error&) {
+            context.reset();
+        }
+    }
+};
+
+// How much is done and, on a terminal, how long the rest takes.
+class Progress {
+public:
+    void operator()(double share) {
+        const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+        const auto minutes = static_cast<int>(std::ceil(spent * (1 - share) / share / 60));
+        if (minutes != minutes_) {
+            bar_.reset();
+            bar_.emplace("Measuring, " + std::to_string(minutes) + " min left");
+            minutes_ = minutes;
+        }
+        (*bar_)(share);
+    }
+
+private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    int minutes_ = -1;
+    std::optional<apps::ProgressBar> bar_;
+};
+
+std::filesystem::path references_folder(const Options& options) {
+    const std::filesystem::path cache = apps::default_cache();
+    return cache.empty() ? std::filesystem::path(options.out) / "references" : cache / "references";
+}
+
+void write_front(const std::string& path, const Front& front) {
+    apps::OutputFile file(path);
+    file.stream() << to_csv(front);
+    file.commit();
+}
+
+void measure_all(const Options& options) {
+    const OpenGl opengl;
+    Part part = options.part;
+    part.with_opengl = !opengl.driver.empty();
+    const std::filesystem::path out = options.out;
+    std::filesystem::create_directories(out);
+    const RunOptions how{
+        .with_opengl = part.with_opengl, .references = references_folder(options), .crops = out / "crops"};
+    const Machine machine = this_machine(opengl.driver);
+    Unfinished unfinished(out / "front.unfinished.csv", about(how, machine), machine);
+    Front front{machine, {}};
+    {
+        Progress progress;
+        front.rows = run(plan(part), how, unfinished.rows(), [&](const Row& row, double share) {
+            unfinished.add(row);
+            progress(share);
+        });
+    }
+    write_front((out / "front.csv").string(), front);
+    unfinished.remove();
+    std::printf("%s: %zu rows\n", (out / "front.csv").c_str(), front.rows.size());
+}
+
+Front read_front(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file) throw std::runtime_error("cannot read " + path + ", expected a front that was kept");
+    return from_csv(std::string(std::istreambuf_iterator<char>(file), {}), path);
+}
+
+// Those of one driver are those of another only by chance.
+bool uses_opengl(const Options& options, const std::optional<Front>& committed, const std::string& driver) {
+    if (driver.empty()) return false;
+    return !options.write.empty() || committed->machine.opengl == driver;
+}
+
+void measure_quickly(const Options& options) {
+    std::optional<Front> committed;
+    if (options.write.empty()) committed = read_front(options.committed);
+    const OpenGl opengl;
+    Part part{.people = {20'000}, .views = {"close", "remote"}, .with_marks = false};
+    part.with_opengl = uses_opengl(options, committed, opengl.driver);
+    const RunOptions how{
+        .with_opengl = part.with_opengl, .effort = {}, .references = references_folder(options), .crops = {}};
+    Progress progress;
+    Front found{this_machine(opengl.driver), {}};
+    found.rows = run(plan(part), how, {}, [&](const Row&, double share) { progress(share); });
+    if (!options.write.empty()) return write_front(options.write, found);
+    const std::vector<std::string> lines = moved(*committed, found);
+    for (const std::string& line : lines) std::printf("%s\n", line.c_str());
+    if (!lines.empty())
+        throw std::runtime_error(std::to_string(lines.size()) + " values differ from " + options.committed +
+                                 "; if that was meant: front --quick --write FILE");
+    std::printf("%zu rows, as committed\n", found.rows.size());
+}
+
+void go(const Options& options) {
+    apps::finish_on_signal();
+    std::optional<tbb::global_control> limit;
+    if (options.threads > 0)
+        limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
+    if (options.quick)
+        measure_quickly(options);
+    else
+        measure_all(options);
+}
+
+}  // namespace
+
+}  // namespace bench::front
+
+int main(int argc, char** argv) {
+    CLI::App app("What every millisecond of a frame buys: run time against error.", "front");
+    bench::front::Options options;
+    bench::front::add_options(app, options);
+    return apps::run_program(
+        app, argc, argv, [&] { check(options.part); }, [&] { go(options); });
+}

@@ -1,0 +1,62 @@
+#include "tests/bench/front/marks.h"
+
+#include "tests/bench/times.h"
+
+namespace bench::front {
+
+namespace {
+
+// Of whatever was chosen: the family that would have been asked for it.
+Setting native_setting(const sfsm::Decision& decision) {
+    Setting setting{.family = "native triangles", .name = "4 samples", .state = decision.state};
+    if (decision.state == sfsm::State::original) return setting;
+    setting.family = decision.state == sfsm::State::slowed ? "native motion" : "native mixture";
+    setting.name = "chosen";
+    return setting;
+}
+
+}  // namespace
+
+Loop::Loop(const Sight& sight, std::string_view law)
+    : sight_(sight), law_(law), controller_(sfsm::make_controller(law, sfsm::Drawing::native)) {}
+
+sfsm::Decision Loop::settle(double target_ms, Patience patience) {
+    const Size size = sight_.venue().size();
+    sight_.venue().renderer(sfsm::Drawing::native).resize(size.width, size.height);
+    double spent = 0;
+    for (int frames = 0; frames < patience.most_frames && spent < patience.most_ms; ++frames) {
+        if (frames >= patience.fewest_frames && spent >= patience.enough_ms) break;
+        spent += draw(target_ms);
+    }
+    return decision_;
+}
+
+double Loop::draw(double target_ms) {
+    constexpr double nudge = 0.001;  // [m]
+    const Size size = sight_.venue().size();
+    Shooter& shooter = sight_.venue().shooter(sfsm::Drawing::native);
+    scene::CameraPose pose = sight_.shot().now;
+    pose.position.y += nudge * static_cast<double>(frame_ % 2);
+    const std::int64_t tick = sight_.shot().tick + frame_;
+    const render::Frame* drawn = nullptr;
+    Times times;
+    times.take([&] {
+        const render::Survey& survey = shooter.survey(render::make_view(pose, size.width, size.height), tick);
+        decision_ = controller_->decide({target_ms, static_cast<double>(survey.range), &survey.forecast});
+        drawn = &shooter.select(decision_, tick);
+        shooter.draw(*drawn);
+    });
+    const double ms = times.wall.front();
+    controller_->observe({frame_++, ms, decision_, drawn->work});
+    return ms;
+}
+
+Measured Loop::mark(double target_ms, Patience patience, Effort effort) {
+    const sfsm::Decision decision = settle(target_ms, patience);
+    Measured measured = measure(sight_, native_setting(decision), effort, decision);
+    measured.row.law = law_;
+    measured.row.target_ms = target_ms;
+    return measured;
+}
+
+}  // namespace bench::front
