@@ -62,6 +62,22 @@ TEST(FrontPlan, NoTwoStepsAreOfOneRow) {
     EXPECT_EQ(rows.size(), steps.size());
 }
 
+TEST(FrontCrops, NoTwoStepsHaveOneName) {
+    std::set<std::string> names;
+    const std::vector<Step> steps = plan({});
+    for (const Step& step : steps) {
+        Row row;
+        row.people = step.people;
+        row.view = step.view;
+        row.law = step.law;
+        row.target_ms = step.target_ms;
+        if (step.setting) row.family = step.setting->family;
+        if (step.setting) row.setting = step.setting->name;
+        names.insert(bench::front::crop_name(row));
+    }
+    EXPECT_EQ(names.size(), steps.size());
+}
+
 TEST(FrontPlan, LawsAreMarkedInTwoCrowds) {
     std::map<std::int64_t, int> marks;
     for (const Step& step : plan({.families = {"laws"}})) {
