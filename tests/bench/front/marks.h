@@ -18,7 +18,7 @@ inline constexpr std::int64_t marked_crowds[] = {20'000, 1'000'000};
 // When a law is taken to have settled.
 struct Patience {
     int fewest_frames = 20, most_frames = 200;
-    double enough_ms = 800, most_ms = 20'000;  // of wall time: enough after the fewest frames, and in any case
+    double enough_ms = 800, most_ms = 40'000;  // of wall time: enough after the fewest frames, and in any case
 };
 
 // A law in charge of a view's frames, drawn natively, of a camera that is nudged from frame to frame.
