@@ -62,7 +62,7 @@ void write_scorecard(std::ostream& out, const Report& report) {
 }
 
 void write_script(std::ostream& out) {
-    for (const char* file : {"data.js", "plot.js", "time_charts.js", "spread_charts.js", "page.js"}) {
+    for (const char* file : {"parts.js", "data.js", "plot.js", "time_charts.js", "spread_charts.js", "page.js"}) {
         out << page_file(file);
     }
 }
@@ -72,7 +72,7 @@ void write_part(std::ostream& out, const Report& report, std::string_view name) 
     if (name == "title") out << escaped(report.title);
     if (name == "facts") write_facts(out, report);
     if (name == "scorecard") write_scorecard(out, report);
-    if (name == "style") out << page_file("report.css");
+    if (name == "style") out << page_file("base.css") << page_file("report.css");
     if (name == "picture") write_report_svg(out, report);
     if (name == "data") write_embedded(out, report);
     if (name == "script") write_script(out);
@@ -81,14 +81,7 @@ void write_part(std::ostream& out, const Report& report, std::string_view name) 
 }  // namespace
 
 void write_report_html(std::ostream& out, const Report& report) {
-    std::string_view page = page_file("report.html");
-    for (std::size_t begin; (begin = page.find("{{")) != page.npos;) {
-        const std::size_t end = page.find("}}", begin);
-        out << page.substr(0, begin);
-        write_part(out, report, page.substr(begin + 2, end - begin - 2));
-        page.remove_prefix(end + 2);
-    }
-    out << page;
+    fill_page(out, page_file("report.html"), [&](std::string_view name) { write_part(out, report, name); });
 }
 
 }  // namespace sfsm

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <ostream>
 
 namespace sfsm::report {
 namespace {
@@ -108,6 +109,16 @@ std::string pixels(double value) {
     while (text.back() == '0') text.pop_back();
     if (text.back() == '.') text.pop_back();
     return text;
+}
+
+void fill_page(std::ostream& out, std::string_view page, const std::function<void(std::string_view name)>& write_part) {
+    for (std::size_t begin; (begin = page.find("{{")) != page.npos;) {
+        const std::size_t end = page.find("}}", begin);
+        out << page.substr(0, begin);
+        write_part(page.substr(begin + 2, end - begin - 2));
+        page.remove_prefix(end + 2);
+    }
+    out << page;
 }
 
 std::string base64(std::string_view bytes) {

@@ -1,6 +1,8 @@
 // Text and numbers as HTML and SVG take them.
 #pragma once
 
+#include <functional>
+#include <iosfwd>
 #include <string>
 #include <string_view>
 
@@ -21,6 +23,9 @@ std::string figure(double value, int digits);
 
 // A length or place in a picture: two digits after the point at most, none that say nothing.
 std::string pixels(double value);
+
+// The page's text, with write_part(name) called where {{name}} stands in it.
+void fill_page(std::ostream& out, std::string_view page, const std::function<void(std::string_view name)>& write_part);
 
 // With padding.
 std::string base64(std::string_view bytes);

@@ -1,4 +1,5 @@
-// Where numbers lie in a picture: axes, and curves thinned to what can be seen. page/plot.js is its twin.
+// Where numbers lie in a picture: axes, and curves thinned to what can be seen. page/parts.js and page/plot.js are its
+// twins.
 #pragma once
 
 #include <cstdint>

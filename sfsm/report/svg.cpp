@@ -19,7 +19,7 @@ constexpr double left = 64, right = 936;
 constexpr double strip_height = 12, strip_gap = 3;
 constexpr int columns = static_cast<int>(right - left);
 
-// After Okabe and Ito, darkened where a line on white needs it; page/report.css has the same.
+// After Okabe and Ito, darkened where a line on white needs it; page/base.css has the same.
 constexpr std::array<const char*, 8> run_colours = {"#0072b2", "#d55e00", "#00805a", "#a8508a",
                                                     "#8f6400", "#4a5361", "#7a4b1e", "#5d4fb3"};
 constexpr std::array<const char*, 3> state_colours = {"#dce2e9", "#a9b5c7", "#7486a0"};

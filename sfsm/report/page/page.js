@@ -1,7 +1,6 @@
 // What the reader does: choose runs, zoom, move, read out.
 
 const leastFrames = 8;  // in view
-const byId = (id) => document.getElementById(id);
 
 // Drawing waits for the next picture, the spread until the view has come to rest: a million times take a while to sort.
 let drawingIsDue = false, spreadTimer = 0;
@@ -57,14 +56,6 @@ const columns = [
   ["distance", "D m", (run, i) => frameText(run.distance[i])],
   ["splat", "S px", (run, i) => frameText(run.splat[i])],
 ];
-
-function addHtml(parent, name, text = "", attributes = {}) {
-  const element = document.createElement(name);
-  for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
-  element.textContent = text;
-  parent.append(element);
-  return element;
-}
 
 function addChip(parent, run) {
   const chip = addHtml(parent, "i", "", { class: "chip" });
@@ -267,15 +258,6 @@ function chooseScale(scale) {
   view.scale = scale;
   for (const button of byId("scale").children) button.setAttribute("aria-pressed", button.dataset.scale === scale);
   redraw();
-}
-
-function nextTheme() {
-  const order = ["system", "light", "dark"];
-  const root = document.documentElement;
-  const theme = order[(order.indexOf(root.dataset.theme ?? "system") + 1) % order.length];
-  root.dataset.theme = theme;
-  root.style.colorScheme = theme === "system" ? "" : theme;
-  byId("theme").textContent = `Theme: ${theme}`;
 }
 
 // Pictures are drawn as wide as they are seen; on paper all have the width of a page.

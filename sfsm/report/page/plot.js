@@ -1,15 +1,4 @@
-// Where numbers lie in a picture: axes, curves thinned to what can be seen, and the SVG they are drawn into. The static
-// picture's twin of this is plot.cpp.
-
-const svgNamespace = document.querySelector("svg").namespaceURI;
-
-function add(parent, name, attributes = {}, text = "") {
-  const element = document.createElementNS(svgNamespace, name);
-  for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
-  element.textContent = text;
-  parent.append(element);
-  return element;
-}
+// Curves thinned to what can be seen. The static picture's twin of this is plot.cpp.
 
 // A group of what belongs to a run: its colour, and what the legend makes stand out.
 function addRun(parent, run) {
@@ -21,52 +10,6 @@ function addRun(parent, run) {
 function runColour(run) {
   return `var(--run-${run.index % 8})`;
 }
-
-const px = (value) => String(Math.round(value * 100) / 100);
-
-// A number as short as it can be told: 6 figures.
-function brief(value) {
-  const size = Math.abs(value);
-  if (size !== 0 && (size >= 1e6 || size < 1e-4)) return String(Number(value.toPrecision(3))).replace("e+", "e");
-  return String(Number(value.toPrecision(6)));
-}
-
-const grouped = (count) => count.toLocaleString("en");
-
-// Numbers low..high along begin..end [px]. What lies beyond is put at the nearer end.
-function makeAxis(low, high, begin, end, isLog = false) {
-  const scale = isLog ? Math.log10 : (value) => value;
-  const from = scale(low), perUnit = (end - begin) / (scale(high) - scale(low));
-  const at = (value) => begin + (scale(Math.min(Math.max(value, low), high)) - from) * perUnit;
-  const invert = (pixel) => {
-    const value = from + (pixel - begin) / perUnit;
-    return isLog ? 10 ** value : value;
-  };
-  return { low, high, begin, end, isLog, at, invert };
-}
-
-function linearTicks(axis, most) {
-  const rough = (axis.high - axis.low) / most;
-  const power = 10 ** Math.floor(Math.log10(rough));
-  const step = [1, 2, 5, 10].map((factor) => factor * power).find((value) => value >= rough) ?? 10 * power;
-  const values = [];
-  for (let i = Math.ceil(axis.low / step); i * step <= axis.high && values.length <= most; ++i) values.push(i * step + 0);  // no -0
-  return values;
-}
-
-// 1, 2 and 5 of each decade; over many decades only some powers of ten.
-function logTicks(axis, most) {
-  const first = Math.floor(Math.log10(axis.low)), last = Math.ceil(Math.log10(axis.high));
-  const factors = (last - first) * 3 <= 2 * most ? [1, 2, 5] : [1];
-  const stride = Math.max(1, Math.ceil((last - first) / most));
-  const values = [];
-  for (let power = first; power <= last; power += stride) {
-    for (const factor of factors) values.push(factor * 10 ** power);
-  }
-  return values.filter((value) => value >= axis.low && value <= axis.high);
-}
-
-const ticksOf = (axis, most) => (axis.isLog ? logTicks(axis, most) : linearTicks(axis, most));
 
 // Least and most of values [begin, end); low > high: nothing is known of any.
 function bucketOf(values, begin, end) {
@@ -148,30 +91,4 @@ function sampleInView(values, view) {
   const sample = [];
   for (let i = begin; i < end; i += stride) if (Number.isFinite(values[i])) sample.push(values[i]);
   return sample;
-}
-
-// Empties the figure's svg for a picture as wide as its place.
-function openPicture(id, height, printWidth) {
-  const figure = document.getElementById(id);
-  const svg = figure.querySelector(":scope > svg");
-  const width = printWidth ?? Math.max(figure.clientWidth, 200);
-  svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
-  svg.replaceChildren();
-  return { svg, width, height };
-}
-
-// Grid lines with their labels.
-function drawYAxis(svg, x, y, most) {
-  for (const tick of ticksOf(y, most)) {
-    const place = px(y.at(tick));
-    add(svg, "path", { class: "grid", d: `M${x.begin} ${place}H${x.end}` });
-    add(svg, "text", { x: x.begin - 7, y: Number(place) + 4, "text-anchor": "end" }, brief(tick));
-  }
-}
-
-function drawXTicks(svg, x, bottom, ticks, label = brief) {
-  for (const tick of ticks) {
-    add(svg, "path", { class: "axis", d: `M${px(x.at(tick))} ${bottom}v4` });
-    add(svg, "text", { x: px(x.at(tick)), y: bottom + 16, "text-anchor": "middle" }, label(tick));
-  }
 }
