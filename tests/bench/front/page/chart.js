@@ -1,0 +1,121 @@
+// A scene's chart: time to the right, logarithmic; error upwards. chart.cpp is its twin.
+
+const smallLook = { width: 220, height: 132, left: 30, right: 8, top: 8, bottom: 18, point: 1.6, mark: 3, ticks: 2 };
+const largeLook = (width) => ({
+  width, height: width < 600 ? 330 : 440, left: 54, right: 14, top: 22, bottom: 40,
+  point: 4, mark: 6.5, ticks: 6, isLarge: true,
+});
+
+// What charts that are compared have in common.
+function rangeOf(scenes, error) {
+  const rows = scenes.flatMap((scene) => scene.rows).filter((row) => isShown(row, error));
+  const times = rows.map((row) => row.ms).concat(front.frameMs);
+  const losses = rows.map((row) => lossOf(row, error));
+  const finite = losses.filter(Number.isFinite);
+  if (!front.errors[error].isMore || finite.length === 0) finite.push(0);
+  const least = Math.min(...finite), most = Math.max(...finite);
+  return {
+    fast: Math.min(...times), slow: Math.max(...times), least, most: most > least ? most : least + 1,
+    hasExact: losses.includes(-Infinity),
+  };
+}
+
+function plotOf(look, range, error) {
+  const margin = 0.04 * (range.most - range.least);
+  const exact = range.hasExact ? 3 * margin : 0;
+  return {
+    look, range, error,
+    x: makeAxis(range.fast / 1.12, range.slow * 1.12, look.left, look.width - look.right, true),
+    y: makeAxis(range.least - exact, range.most + margin, look.height - look.bottom, look.top),
+  };
+}
+
+function drawGrid(svg, { look, range, error, x, y }) {
+  for (const tick of linearTicks(y, look.ticks).filter((value) => value >= range.least - 1e-9)) {
+    const place = px(y.at(tick));
+    add(svg, "path", { class: "grid", d: `M${x.begin} ${place}H${x.end}` });
+    add(svg, "text", { x: x.begin - 6, y: Number(place) + 4, "text-anchor": "end" }, brief(front.errors[error].isMore ? -tick : tick));
+  }
+  if (range.hasExact) add(svg, "text", { x: x.begin - 6, y: y.begin + 1, "text-anchor": "end" }, look.isLarge ? "exact" : "\u221e");
+  const all = logTicks(x, 12);
+  for (const tick of look.isLarge && look.width > 600 ? all : all.filter((value) => Number.isInteger(Math.round(Math.log10(value) * 1e6) / 1e6))) {
+    add(svg, "path", { class: "axis", d: `M${px(x.at(tick))} ${y.begin}v4` });
+    add(svg, "text", { x: px(x.at(tick)), y: y.begin + 15, "text-anchor": "middle" }, brief(tick));
+  }
+  const place = px(x.at(front.frameMs));
+  add(svg, "path", { class: "frame", d: `M${place} ${y.end}V${y.begin}` });
+  if (!look.isLarge) return;
+  add(svg, "text", { class: "strong", x: place, y: y.end - 7, "text-anchor": "middle" }, `${front.frameMs} ms`);
+  add(svg, "text", { x: x.end, y: look.height - 4, "text-anchor": "end" }, "time of a frame [ms], logarithmic \u2192");
+  const { name, unit, isMore } = front.errors[error];
+  add(svg, "text", { class: "strong", x: 2, y: 10 }, `${name}${unit ? ` [${unit}]` : ""}${isMore ? ", upside down" : ""}`);
+}
+
+// The best error so far for every time: down at each point of the front, then on to the next.
+function frontPath(scene, { error, x, y }) {
+  let path = "";
+  for (const index of scene.fronts[error]) {
+    const row = scene.rows[index];
+    path += (path === "" ? `M${px(x.at(row.ms))} ${y.end}` : `H${px(x.at(row.ms))}`) + `V${px(y.at(lossOf(row, error)))}`;
+  }
+  return path === "" ? "" : `${path}H${x.end}`;
+}
+
+function drawFamilies(svg, scene, plot, places) {
+  const { look, error, x, y } = plot;
+  front.families.forEach((name, family) => {
+    const rows = scene.rows.filter((row) => row.family === family && !isMark(row) && isShown(row, error)).sort((a, b) => a.ms - b.ms);
+    if (rows.length === 0) return;
+    const group = add(svg, "g", { class: `family family-${family % 8}` });
+    const at = rows.map((row) => [px(x.at(row.ms)), px(y.at(lossOf(row, error)))]);
+    add(group, "path", { class: "curve", d: at.map(([left, top], i) => `${i === 0 ? "M" : "L"}${left} ${top}`).join("") });
+    rows.forEach((row, i) => {
+      add(group, "circle", { class: "point", "data-row": row.place, cx: at[i][0], cy: at[i][1], r: look.point });
+      places.push({ row, x: Number(at[i][0]), y: Number(at[i][1]) });
+    });
+  });
+}
+
+function markPath(law, r) {
+  const half = 0.9 * r, side = 1.8 * r;
+  if (law === "predictive") return `M0 -${r}L${r} 0L0 ${r}L-${r} 0Z`;
+  if (law === "safeguarded") return `M-${half} -${half}h${side}v${side}h-${side}Z`;
+  if (law === "paper") return `M0 -${r}L${r} ${half}L-${r} ${half}Z`;
+  return `M-${half} -${half}l${side} ${side}m0 -${side}l-${side} ${side}`;
+}
+
+function lawClass(law) {
+  return ["predictive", "safeguarded", "paper"].includes(law) ? law : "other";
+}
+
+// A thin line leads from a mark to the target that it was given.
+function drawMarks(svg, scene, { look, error, x, y }, places) {
+  for (const row of scene.rows.filter((shown) => isMark(shown) && isShown(shown, error))) {
+    const left = x.at(row.ms), top = y.at(lossOf(row, error));
+    if (look.isLarge && row.targetMs > 0) {
+      add(svg, "path", { class: "tether", d: `M${px(left)} ${px(top)}H${px(x.at(row.targetMs))}m0 -4v8` });
+    }
+    add(svg, "path", {
+      class: `mark law-${lawClass(row.law)}`, "data-row": row.place, d: markPath(row.law, look.mark),
+      transform: `translate(${px(left)} ${px(top)})`,
+    });
+    places.push({ row, x: left, y: top });
+  }
+}
+
+// Into an emptied svg. Returns where each row is [px of the chart].
+function drawChart(svg, scene, error, range, look) {
+  const plot = plotOf(look, range, error);
+  const places = [];
+  svg.setAttribute("viewBox", `0 0 ${look.width} ${look.height}`);
+  svg.setAttribute("aria-label", `${scene.name}: time against ${front.errors[error].name}`);
+  svg.replaceChildren();
+  drawGrid(svg, plot);
+  const steps = frontPath(scene, plot);
+  const { x, y } = plot;
+  if (steps) add(svg, "path", { class: "under", d: `${steps}V${y.begin}H${x.begin}V${y.end}Z` });
+  drawFamilies(svg, scene, plot, places);
+  if (steps) add(svg, "path", { class: "front", d: steps });
+  drawMarks(svg, scene, plot, places);
+  return places.sort((a, b) => a.row.ms - b.row.ms);
+}
