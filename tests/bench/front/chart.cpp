@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sfsm/report/markup.h"
 #include "sfsm/report/plot.h"
@@ -24,24 +25,25 @@ constexpr Look large_look{900, 420, 52, 14, 18, 40, 4, 6.5, 6};
 
 struct Plot {
     Look look;
-    Axis x, y;  // of log10(ms), of loss
+    Axis x, y;  // of log10(ms), of the error's height
     const ErrorKind& error;
 
     double at_ms(double ms) const { return x(std::log10(ms)); }
-    double at(const Row& row) const { return y(error.loss(row)); }
+    bool is_small() const { return look.width < large_look.width; }
+    double at(const Row& row) const { return y(error.height(row)); }
 };
 
 Plot plot_of(const Look& look, const Range& range, const ErrorKind& error) {
-    const double margin = 0.04 * (range.most_loss - range.least_loss);
+    const double margin = 0.04 * (range.most - range.least);
     const double exact = range.has_exact ? 3 * margin : 0;  // a place below the others
     return {look,
             {std::log10(range.fast_ms / 1.12), std::log10(range.slow_ms * 1.12), look.left, look.width - look.right},
-            {range.least_loss - exact, range.most_loss + margin, look.height - look.bottom, look.top},
+            {range.least - margin - exact, range.most + margin, look.height - look.bottom, look.top},
             error};
 }
 
 bool is_shown(const Row& row, const ErrorKind& error) {
-    return std::isfinite(row.wall_ms) && row.wall_ms > 0 && !std::isnan(error.loss(row));
+    return std::isfinite(row.wall_ms) && row.wall_ms > 0 && !std::isnan(error.height(row));
 }
 
 std::string text(double x, double y, const char* anchor, const std::string& content) {
@@ -53,30 +55,42 @@ std::string path(const std::string& attributes, const std::string& d) {
     return "<path " + attributes + " d=\"" + d + "\"/>\n";
 }
 
-std::string y_grid(const Plot& plot) {
-    std::string out;
-    for (const double tick : sfsm::report::ticks(plot.y, plot.look.ticks)) {
-        const double y = plot.y(tick);
-        const double value = plot.error.more_is_better ? -tick : tick;
-        out += path("class=\"grid\"", "M" + pixels(plot.x.begin) + " " + pixels(y) + "H" + pixels(plot.x.end));
-        out += text(plot.x.begin - 6, y + 4, "end", sfsm::report::tick_text(value));
+// 1, 2 and 5 of each decade that the axis of log10 holds, or powers of ten alone.
+std::vector<double> log_ticks(const Axis& axis, bool only_powers) {
+    std::vector<double> values;
+    for (double power = std::floor(axis.low); power <= axis.high; ++power) {
+        for (const double factor : {1.0, 2.0, 5.0}) {
+            const double log = power + std::log10(factor);
+            if (log >= axis.low && log <= axis.high && (factor == 1 || !only_powers)) {
+                values.push_back(factor * std::pow(10, power));
+            }
+        }
     }
+    return values;
+}
+
+std::string y_grid(const Plot& plot, const Range& range) {
+    const bool is_log = !plot.error.more_is_better;
+    std::string out;
+    for (const double tick :
+         is_log ? log_ticks(plot.y, plot.is_small()) : sfsm::report::ticks(plot.y, plot.look.ticks)) {
+        const double height = is_log ? std::log10(tick) : tick;
+        if (range.has_exact && height < range.least) continue;  // what is exact has a label of its own
+        const std::string y = pixels(plot.y(height));
+        out += path("class=\"grid\"", "M" + pixels(plot.x.begin) + " " + y + "H" + pixels(plot.x.end));
+        out += text(plot.x.begin - 6, plot.y(height) + 4, "end", sfsm::report::tick_text(is_log ? tick : -tick));
+    }
+    if (range.has_exact) out += text(plot.x.begin - 6, plot.y.begin, "end", plot.is_small() ? "=" : "exact");
     return out;
 }
 
-// 1, 2 and 5 of each decade; only powers of ten where it is narrow.
 std::string x_ticks(const Plot& plot) {
     std::string out;
     const double bottom = plot.y.begin;
-    const bool is_narrow = plot.look.width < large_look.width;
-    for (double power = std::floor(plot.x.low); power <= plot.x.high; ++power) {
-        for (const double factor : {1.0, 2.0, 5.0}) {
-            const double ms = factor * std::pow(10, power);
-            const double x = plot.at_ms(ms);
-            if (std::log10(ms) < plot.x.low || std::log10(ms) > plot.x.high || (is_narrow && factor > 1)) continue;
-            out += path("class=\"axis\"", "M" + pixels(x) + " " + pixels(bottom) + "v4");
-            out += text(x, bottom + 15, "middle", sfsm::report::tick_text(ms));
-        }
+    for (const double ms : log_ticks(plot.x, plot.is_small())) {
+        const double x = plot.at_ms(ms);
+        out += path("class=\"axis\"", "M" + pixels(x) + " " + pixels(bottom) + "v4");
+        out += text(x, bottom + 15, "middle", sfsm::report::tick_text(ms));
     }
     return out;
 }
@@ -139,23 +153,25 @@ std::string marks(const Plot& plot, const Scene& scene) {
 }  // namespace
 
 Range range_of(std::span<const Scene> scenes, const ErrorKind& error) {
-    Range range{frame_ms, frame_ms, 0, 0, false};
-    bool has_any = false;
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Range range{frame_ms, frame_ms, infinity, -infinity, false};
     for (const Scene& scene : scenes) {
         for (const Row& row : scene.rows) {
             if (!is_shown(row, error)) continue;
             range.fast_ms = std::min(range.fast_ms, row.wall_ms);
             range.slow_ms = std::max(range.slow_ms, row.wall_ms);
-            const double loss = error.loss(row);
-            range.has_exact = range.has_exact || std::isinf(loss);
-            if (std::isinf(loss)) continue;
-            const bool starts = !has_any && error.more_is_better;  // others start at 0
-            range.least_loss = starts ? loss : std::min(range.least_loss, loss);
-            range.most_loss = starts ? loss : std::max(range.most_loss, loss);
-            has_any = true;
+            const double height = error.height(row);
+            range.has_exact = range.has_exact || height == -infinity;
+            if (!std::isfinite(height)) continue;
+            range.least = std::min(range.least, height);
+            range.most = std::max(range.most, height);
         }
     }
-    if (range.most_loss <= range.least_loss) range.most_loss = range.least_loss + 1;
+    if (range.most < range.least) range.least = range.most = 0;
+    const double most_decades = error.more_is_better ? infinity : 3;  // what is better than that is at the bottom
+    range.least = std::max(range.least, range.most - most_decades);
+    const double least_span = error.more_is_better ? 1 : 0.1;
+    if (range.most - range.least < least_span) range.least = range.most - least_span;
     return range;
 }
 
@@ -187,11 +203,11 @@ std::string chart_svg(const Scene& scene, const ErrorKind& error, const Range& r
     std::string out = "<svg class=\"chart\" viewBox=\"0 0 " + pixels(plot.look.width) + " " + pixels(plot.look.height) +
                       "\" role=\"img\" aria-label=\"" + sfsm::report::escaped(scene.name()) + ": time against " +
                       std::string(error.name) + "\">\n";
-    out += y_grid(plot) + x_ticks(plot) + frame_line(plot);
+    out += y_grid(plot, range) + x_ticks(plot) + frame_line(plot);
+    out += front_line(plot, scene);
     for (std::size_t family = 0; family < families.size(); ++family)
         out += points(plot, scene, family, families[family]);
-    out += front_line(plot, scene) + marks(plot, scene);
-    return out + "</svg>\n";
+    return out + marks(plot, scene) + "</svg>\n";
 }
 
 }  // namespace bench::front

@@ -1,4 +1,5 @@
-// A scene's chart as an SVG for inside HTML: time to the right, logarithmic; error upwards. page/chart.js is its twin,
+// A scene's chart as an SVG for inside HTML: time to the right, error upwards, both
+// logarithmic. page/chart.js is its twin,
 // and front.css gives both their looks.
 #pragma once
 
@@ -11,9 +12,9 @@ namespace bench::front {
 
 // What the charts of one crowd have in common, or one large chart.
 struct Range {
-    double fast_ms = 1, slow_ms = 100;     // > 0
-    double least_loss = 0, most_loss = 1;  // finite
-    bool has_exact = false;                // some loss is -inf: shown at the bottom
+    double fast_ms = 1, slow_ms = 100;  // > 0
+    double least = -2, most = 0;        // of ErrorKind::height, finite
+    bool has_exact = false;             // some height is -inf: shown at the bottom
 };
 Range range_of(std::span<const Scene> scenes, const ErrorKind& error);
 

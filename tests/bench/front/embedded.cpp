@@ -38,6 +38,11 @@ std::string error_of(const ErrorKind& error) {
            ", \"isMore\": " + (error.more_is_better ? "true" : "false") + "}";
 }
 
+std::string sentence_of(const Sentence& sentence) {
+    return "[" + json_string(sentence.before) + ", " + json_string(sentence.key) + ", " + json_string(sentence.after) +
+           "]";
+}
+
 // In the order that page/data.js takes them.
 std::string row_of(const Row& row, std::size_t place, const std::vector<std::string>& families) {
     const auto family = std::find(families.begin(), families.end(), row.family) - families.begin();
@@ -61,15 +66,15 @@ std::string scene_of(const Scene& scene, const std::vector<std::string>& familie
         out += (i == 0 ? "\n" : ",\n") + row_of(scene.rows[i], scene.places[i], families);
     const auto index = [](std::size_t i) { return std::to_string(i); };
     const auto front = [&](const ErrorKind& error) { return list(front_of(scene.rows, error), index); };
-    const auto draw = [&](const ErrorKind& error) { return json_string(what_to_draw(scene, error)); };
-    const auto buys = [&](const ErrorKind& error) { return json_string(what_a_millisecond_buys(scene, error)); };
+    const auto draw = [&](const ErrorKind& error) { return sentence_of(what_to_draw(scene, error)); };
+    const auto buys = [&](const ErrorKind& error) { return sentence_of(what_a_millisecond_buys(scene, error)); };
     return out + "],\n\"fronts\": " + list(error_kinds(), front) + ", \"draw\": " + list(error_kinds(), draw) +
            ", \"buys\": " + list(error_kinds(), buys) + "}";
 }
 
 std::string loss_of(const Loss& loss) {
     const auto index = [](const std::optional<std::size_t>& i) { return i ? std::to_string(*i) : "null"; };
-    return "{\"sentence\": " + json_string(loss.sentence) + ", \"scene\": " + index(loss.scene) +
+    return "{\"sentence\": " + sentence_of(loss.sentence) + ", \"scene\": " + index(loss.scene) +
            ", \"row\": " + index(loss.row) + "}";
 }
 

@@ -1,6 +1,7 @@
 #include "tests/bench/front/error_kind.h"
 
 #include <array>
+#include <cmath>
 
 #include "sfsm/report/markup.h"
 
@@ -14,7 +15,7 @@ constexpr std::array kinds = {
               [](const Row& row) { return row.crowd.flip; }},
     ErrorKind{"ssim", "1\u2212SSIM", "", "structure of the luma that is lost", 4, false,
               [](const Row& row) { return 1 - row.frame.ssim; }},
-    ErrorKind{"psnr", "PSNR", "dB", "mean square difference; more is better, so this axis is upside down", 2, true,
+    ErrorKind{"psnr", "PSNR", "dB", "mean square difference; more is better, so it grows downwards", 2, true,
               [](const Row& row) { return row.frame.psnr; }},
     ErrorKind{"change", "Change", "of 255", "flicker: what changes from frame to frame and should not", 3, false,
               [](const Row& row) { return row.change; }},
@@ -25,6 +26,10 @@ constexpr std::array kinds = {
 };
 
 }  // namespace
+
+double ErrorKind::height(const Row& row) const {
+    return more_is_better ? -value(row) : std::log10(value(row) < 0 ? 0 : value(row));
+}
 
 std::string ErrorKind::figure(double of) const {
     return sfsm::report::figure(of, digits);

@@ -21,6 +21,10 @@ struct ErrorKind {
     // Less is better, whatever the error; -inf: the same picture; NaN: not known.
     double loss(const Row& row) const { return more_is_better ? -value(row) : value(row); }
 
+    // Its height in a chart, where equal ratios of errors (of PSNR: differences) are equally high: log10 of the value,
+    // or less decibels. -inf: the same picture.
+    double height(const Row& row) const;
+
     // A value as text with its name and unit: "FLIP 0.0213", "PSNR 31.2 dB".
     std::string told(double of) const;
     std::string figure(double of) const;  // the number alone

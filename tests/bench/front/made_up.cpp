@@ -143,7 +143,7 @@ std::string png(std::uint64_t seed, int block) {
         for (int x = 0; x < image.width; ++x) {
             const auto where = static_cast<std::uint64_t>(1000 * (y / block) + x / block);
             for (int k = 0; k < 3; ++k) {
-                const auto value = sfsm::hash(seed + static_cast<std::uint64_t>(k), where / 3) % 160 + 60;
+                const auto value = sfsm::hash(seed + static_cast<std::uint64_t>(k), where / 3) % 6 * 25 + 60;
                 image.pixels[static_cast<std::size_t>(3 * (y * image.width + x) + k)] =
                     static_cast<std::uint8_t>(value);
             }
@@ -177,7 +177,7 @@ Crops made_up_crops(const Front& front) {
     Crops crops;
     for (std::size_t i = 0; i < front.rows.size(); ++i) {
         const Row& row = front.rows[i];
-        if (row.people != people) continue;
+        if (row.people != people || !row.is_preset) continue;
         crops.of_rows.push_back({i, png(1, 1 + static_cast<int>(row.decision.splat_size))});
         crops.references[{row.people, row.view}] = png(1, 1);
     }

@@ -9,7 +9,7 @@ namespace bench::front {
 // Four crowds in 13 views, some 25 settings and 15 marks each; the same on every machine up to rounding.
 Front made_up_front();
 
-// Of every row of 20,000 people and of their references.
+// Of every row of 20,000 people at a preset and of their references.
 Crops made_up_crops(const Front& front);
 
 }  // namespace bench::front

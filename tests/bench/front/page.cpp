@@ -46,14 +46,15 @@ std::string machine_line(const Machine& machine) {
     return line + (machine.date.empty() ? "" : "; " + machine.date);
 }
 
-std::string answer(const char* id, const std::string& question, const std::string& sentence) {
-    return "<div><h2>" + question + "</h2><p id=\"" + id + "\">" + escaped(sentence) + "</p></div>\n";
+std::string answer(const char* id, const std::string& question, const Sentence& sentence) {
+    return "<div><h2>" + question + "</h2><p id=\"" + id + "\">" + escaped(sentence.before) + "<b>" +
+           escaped(sentence.key) + "</b>" + escaped(sentence.after) + "</p></div>\n";
 }
 
 std::string answers(const Page& page) {
     const std::string frame = time_text(frame_ms) + " ms";
     const bool is_empty = page.scenes.empty();
-    const std::string none = "Nothing was measured.";
+    const Sentence none{"Nothing was measured.", "", ""};
     return answer("draw", "What to draw in " + frame, is_empty ? none : what_to_draw(page.scenes[0], page.error)) +
            answer("buys", "What another millisecond buys",
                   is_empty ? none : what_a_millisecond_buys(page.scenes[0], page.error)) +

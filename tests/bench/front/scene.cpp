@@ -70,6 +70,10 @@ std::string time_text(double ms) {
     return sfsm::report::figure(ms, ms < 10 ? 2 : ms < 100 ? 1 : 0);
 }
 
+std::string target_text(double ms) {
+    return sfsm::report::pixels(ms);
+}
+
 std::string setting_text(const Row& row) {
     return row.setting.empty() ? row.family : row.family + ", " + row.setting;
 }

@@ -34,6 +34,9 @@ std::vector<std::size_t> front_of(std::span<const Row> rows, const ErrorKind& er
 std::string count_text(std::int64_t count);
 std::string time_text(double ms);
 
+// A target [ms] as short as it was given: "4", "16.6".
+std::string target_text(double ms);
+
 // How it was drawn: "native points, S = 1.4".
 std::string setting_text(const Row& row);
 

@@ -69,7 +69,7 @@ std::string front_table(const Scene& scene, const ErrorKind& error) {
     out += "</tbody><tbody>\n";
     for (const Row& row : scene.rows) {
         if (!row.is_mark()) continue;
-        out += "<tr class=\"of-law\"><th scope=\"row\">" + escaped(row.law) + " at " + time_text(row.target_ms) +
+        out += "<tr class=\"of-law\"><th scope=\"row\">" + escaped(row.law) + " at " + target_text(row.target_ms) +
                " ms: " + escaped(setting_text(row)) + "</th>" + row_cells(row) + "</tr>\n";
     }
     return out + "</tbody></table>\n";

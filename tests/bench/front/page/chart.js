@@ -1,4 +1,4 @@
-// A scene's chart: time to the right, logarithmic; error upwards. chart.cpp is its twin.
+// A scene's chart: time to the right, error upwards, both logarithmic. chart.cpp is its twin.
 
 const smallLook = { width: 220, height: 132, left: 30, right: 8, top: 8, bottom: 18, point: 1.6, mark: 3, ticks: 2 };
 const largeLook = (width) => ({
@@ -10,13 +10,15 @@ const largeLook = (width) => ({
 function rangeOf(scenes, error) {
   const rows = scenes.flatMap((scene) => scene.rows).filter((row) => isShown(row, error));
   const times = rows.map((row) => row.ms).concat(front.frameMs);
-  const losses = rows.map((row) => lossOf(row, error));
-  const finite = losses.filter(Number.isFinite);
-  if (!front.errors[error].isMore || finite.length === 0) finite.push(0);
-  const least = Math.min(...finite), most = Math.max(...finite);
+  const { isMore } = front.errors[error];
+  const heights = rows.map((row) => heightOf(row, error)).filter((height) => height !== Infinity);
+  const finite = heights.filter(Number.isFinite);
+  const most = finite.length === 0 ? 0 : Math.max(...finite);
+  const mostDecades = isMore ? Infinity : 3;  // what is better than that is at the bottom
+  const least = finite.length === 0 ? 0 : Math.max(Math.min(...finite), most - mostDecades);
   return {
-    fast: Math.min(...times), slow: Math.max(...times), least, most: most > least ? most : least + 1,
-    hasExact: losses.includes(-Infinity),
+    fast: Math.min(...times), slow: Math.max(...times), least: Math.min(least, most - (isMore ? 1 : 0.1)), most,
+    hasExact: heights.includes(-Infinity),
   };
 }
 
@@ -26,19 +28,33 @@ function plotOf(look, range, error) {
   return {
     look, range, error,
     x: makeAxis(range.fast / 1.12, range.slow * 1.12, look.left, look.width - look.right, true),
-    y: makeAxis(range.least - exact, range.most + margin, look.height - look.bottom, look.top),
+    y: makeAxis(range.least - margin - exact, range.most + margin, look.height - look.bottom, look.top),
   };
 }
 
-function drawGrid(svg, { look, range, error, x, y }) {
-  for (const tick of linearTicks(y, look.ticks).filter((value) => value >= range.least - 1e-9)) {
-    const place = px(y.at(tick));
+const isPower = (value) => Math.abs(Math.log10(value) - Math.round(Math.log10(value))) < 1e-6;
+
+// 1, 2 and 5 of each decade of an axis of log10, or powers of ten alone.
+function logTicksOf(axis, onlyPowers) {
+  const values = logTicks({ low: 10 ** axis.low, high: 10 ** axis.high }, 12);
+  return onlyPowers ? values.filter(isPower) : values;
+}
+
+function drawErrors(svg, { look, range, error, x, y }) {
+  const isLog = !front.errors[error].isMore;
+  for (const tick of isLog ? logTicksOf(y, !look.isLarge) : linearTicks(y, look.ticks)) {
+    const height = isLog ? Math.log10(tick) : tick;
+    if (range.hasExact && height < range.least) continue;  // what is exact has a label of its own
+    const place = px(y.at(height));
     add(svg, "path", { class: "grid", d: `M${x.begin} ${place}H${x.end}` });
-    add(svg, "text", { x: x.begin - 6, y: Number(place) + 4, "text-anchor": "end" }, brief(front.errors[error].isMore ? -tick : tick));
+    add(svg, "text", { x: x.begin - 6, y: Number(place) + 4, "text-anchor": "end" }, brief(isLog ? tick : -tick));
   }
-  if (range.hasExact) add(svg, "text", { x: x.begin - 6, y: y.begin + 1, "text-anchor": "end" }, look.isLarge ? "exact" : "\u221e");
-  const all = logTicks(x, 12);
-  for (const tick of look.isLarge && look.width > 600 ? all : all.filter((value) => Number.isInteger(Math.round(Math.log10(value) * 1e6) / 1e6))) {
+  if (range.hasExact) add(svg, "text", { x: x.begin - 6, y: y.begin, "text-anchor": "end" }, look.isLarge ? "exact" : "=");
+}
+
+function drawTimes(svg, { look, error, x, y }) {
+  const ticks = logTicks(x, 12);
+  for (const tick of look.isLarge && look.width > 600 ? ticks : ticks.filter(isPower)) {
     add(svg, "path", { class: "axis", d: `M${px(x.at(tick))} ${y.begin}v4` });
     add(svg, "text", { x: px(x.at(tick)), y: y.begin + 15, "text-anchor": "middle" }, brief(tick));
   }
@@ -46,9 +62,9 @@ function drawGrid(svg, { look, range, error, x, y }) {
   add(svg, "path", { class: "frame", d: `M${place} ${y.end}V${y.begin}` });
   if (!look.isLarge) return;
   add(svg, "text", { class: "strong", x: place, y: y.end - 7, "text-anchor": "middle" }, `${front.frameMs} ms`);
-  add(svg, "text", { x: x.end, y: look.height - 4, "text-anchor": "end" }, "time of a frame [ms], logarithmic \u2192");
+  add(svg, "text", { x: x.end, y: look.height - 4, "text-anchor": "end" }, "time of a frame [ms] \u2192");
   const { name, unit, isMore } = front.errors[error];
-  add(svg, "text", { class: "strong", x: 2, y: 10 }, `${name}${unit ? ` [${unit}]` : ""}${isMore ? ", upside down" : ""}`);
+  add(svg, "text", { class: "strong", x: 2, y: 10 }, `${name}${unit ? ` [${unit}]` : ""}${isMore ? ", downwards" : ""}`);
 }
 
 // The best error so far for every time: down at each point of the front, then on to the next.
@@ -56,7 +72,7 @@ function frontPath(scene, { error, x, y }) {
   let path = "";
   for (const index of scene.fronts[error]) {
     const row = scene.rows[index];
-    path += (path === "" ? `M${px(x.at(row.ms))} ${y.end}` : `H${px(x.at(row.ms))}`) + `V${px(y.at(lossOf(row, error)))}`;
+    path += (path === "" ? `M${px(x.at(row.ms))} ${y.end}` : `H${px(x.at(row.ms))}`) + `V${px(y.at(heightOf(row, error)))}`;
   }
   return path === "" ? "" : `${path}H${x.end}`;
 }
@@ -67,7 +83,7 @@ function drawFamilies(svg, scene, plot, places) {
     const rows = scene.rows.filter((row) => row.family === family && !isMark(row) && isShown(row, error)).sort((a, b) => a.ms - b.ms);
     if (rows.length === 0) return;
     const group = add(svg, "g", { class: `family family-${family % 8}` });
-    const at = rows.map((row) => [px(x.at(row.ms)), px(y.at(lossOf(row, error)))]);
+    const at = rows.map((row) => [px(x.at(row.ms)), px(y.at(heightOf(row, error)))]);
     add(group, "path", { class: "curve", d: at.map(([left, top], i) => `${i === 0 ? "M" : "L"}${left} ${top}`).join("") });
     rows.forEach((row, i) => {
       add(group, "circle", { class: "point", "data-row": row.place, cx: at[i][0], cy: at[i][1], r: look.point });
@@ -91,7 +107,7 @@ function lawClass(law) {
 // A thin line leads from a mark to the target that it was given.
 function drawMarks(svg, scene, { look, error, x, y }, places) {
   for (const row of scene.rows.filter((shown) => isMark(shown) && isShown(shown, error))) {
-    const left = x.at(row.ms), top = y.at(lossOf(row, error));
+    const left = x.at(row.ms), top = y.at(heightOf(row, error));
     if (look.isLarge && row.targetMs > 0) {
       add(svg, "path", { class: "tether", d: `M${px(left)} ${px(top)}H${px(x.at(row.targetMs))}m0 -4v8` });
     }
@@ -110,12 +126,13 @@ function drawChart(svg, scene, error, range, look) {
   svg.setAttribute("viewBox", `0 0 ${look.width} ${look.height}`);
   svg.setAttribute("aria-label", `${scene.name}: time against ${front.errors[error].name}`);
   svg.replaceChildren();
-  drawGrid(svg, plot);
+  drawErrors(svg, plot);
+  drawTimes(svg, plot);
   const steps = frontPath(scene, plot);
   const { x, y } = plot;
   if (steps) add(svg, "path", { class: "under", d: `${steps}V${y.begin}H${x.begin}V${y.end}Z` });
-  drawFamilies(svg, scene, plot, places);
   if (steps) add(svg, "path", { class: "front", d: steps });
+  drawFamilies(svg, scene, plot, places);
   drawMarks(svg, scene, plot, places);
   return places.sort((a, b) => a.row.ms - b.row.ms);
 }

@@ -19,11 +19,12 @@ for (const scene of front.scenes) scene.rows = scene.rows.map(decodeRow);
 
 const isMark = (row) => row.law !== "";
 const settingText = (row) => (row.setting === "" ? row.way : `${row.way}, ${row.setting}`);
-const rowName = (row) => (isMark(row) ? `${row.law} at ${timeText(row.targetMs)} ms: ${settingText(row)}` : settingText(row));
+const rowName = (row) => (isMark(row) ? `${row.law} at ${px(row.targetMs)} ms: ${settingText(row)}` : settingText(row));
 
-// Less is better, whatever the error; -Infinity: the same picture.
-const lossOf = (row, error) => (front.errors[error].isMore ? -row.errors[error] : row.errors[error]);
-const isShown = (row, error) => Number.isFinite(row.ms) && row.ms > 0 && !Number.isNaN(lossOf(row, error));
+// How high it is in a chart: equal ratios of errors (of PSNR: differences) are equally high. -Infinity: the same picture.
+const heightOf = (row, error) => (front.errors[error].isMore ? -row.errors[error] : Math.log10(Math.max(0, row.errors[error])));
+
+const isShown = (row, error) => Number.isFinite(row.ms) && row.ms > 0 && !Number.isNaN(heightOf(row, error));
 
 function fixed(value, digits) {
   if (Number.isNaN(value)) return "\u2013";

@@ -47,11 +47,17 @@ function drawSmall() {
   }
 }
 
+function fillSentence(id, [before, key, after]) {
+  byId(id).textContent = before;
+  addHtml(byId(id), "b", key);
+  byId(id).append(after);
+}
+
 function fillAnswers() {
-  byId("draw").textContent = scene().draw[view.error];
-  byId("buys").textContent = scene().buys[view.error];
+  fillSentence("draw", scene().draw[view.error]);
+  fillSentence("buys", scene().buys[view.error]);
   const { sentence, scene: where, row } = front.loses[view.error];
-  byId("loses").textContent = sentence;
+  fillSentence("loses", sentence);
   if (where === null) return;
   const button = addHtml(byId("loses"), "button", "Show it", { type: "button", class: "control inline" });
   button.addEventListener("click", () => {

@@ -54,7 +54,7 @@ function fillPanel(panel, scene, row) {
   panel.dataset.row = row.place;
   const title = addHtml(panel, "h3", settingText(row), { class: `family-${row.family % 8}` });
   if (!isMark(row)) title.prepend(addHtml(title, "i", "", { class: "chip" }));
-  if (isMark(row)) addHtml(panel, "p", `chosen by ${row.law} at a target of ${timeText(row.targetMs)} ms`, { class: "law" });
+  if (isMark(row)) addHtml(panel, "p", `chosen by ${row.law} at a target of ${px(row.targetMs)} ms`, { class: "law" });
   const time = addHtml(panel, "p", "", { class: "time" });
   addHtml(time, "b", `${timeText(row.ms)} ms`);
   time.append(` (quartiles ${timeText(row.lowMs)} to ${timeText(row.highMs)})`);
