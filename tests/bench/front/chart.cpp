@@ -160,6 +160,10 @@ Range range_of(std::span<const Scene> scenes, const ErrorKind& error) {
             if (!is_shown(row, error)) continue;
             range.fast_ms = std::min(range.fast_ms, row.wall_ms);
             range.slow_ms = std::max(range.slow_ms, row.wall_ms);
+            if (row.target_ms > 0 && std::isfinite(row.target_ms)) {
+                range.fast_ms = std::min(range.fast_ms, row.target_ms);
+                range.slow_ms = std::max(range.slow_ms, row.target_ms);
+            }
             const double height = error.height(row);
             range.has_exact = range.has_exact || height == -infinity;
             if (!std::isfinite(height)) continue;

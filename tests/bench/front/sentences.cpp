@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "sfsm/controller.h"
 #include "sfsm/report/markup.h"
@@ -40,17 +41,21 @@ double excess(const Row& mark, const Row& best, const ErrorKind& error) {
     return error.more_is_better ? a - b : b > 0 ? a / b : infinity;
 }
 
-Sentence loss_sentence(const Scene& scene, const Row& mark, const Row& best, const ErrorKind& error) {
-    const double loss = excess(mark, best, error);
+// What an error is like beside the front's, in bold, and how the front comes into it.
+std::pair<std::string, std::string> excess_text(double loss, const ErrorKind& error) {
     const std::string name(error.name);
-    const std::string key = std::isinf(loss) ? "an error where none is needed"
-                            : error.more_is_better
-                                ? two_figures(loss) + " dB less " + name
-                                : sfsm::report::figure(loss, loss < 10 ? 1 : 0) + " times the " + name;
-    return {
-        "With " + scene.name() + ", at a target of " + target_text(mark.target_ms) + " ms, " + mark.law + " has ", key,
-        " of the front: " + error.figure(error.value(mark)) + " in " + time_text(mark.wall_ms) + " ms; " +
-            setting_text(best) + " has " + error.figure(error.value(best)) + " in " + time_text(best.wall_ms) + " ms."};
+    if (std::isinf(loss)) return {"an error where none is needed", ""};
+    if (error.more_is_better) return {two_figures(loss) + " dB less " + name, " than the front"};
+    return {sfsm::report::figure(loss, loss < 10 ? 1 : 0) + " times the " + name, " of the front"};
+}
+
+Sentence loss_sentence(const Scene& scene, const Row& mark, const Row& best, const ErrorKind& error) {
+    const auto [key, front] = excess_text(excess(mark, best, error), error);
+    const auto has = [&](const Row& row) {
+        return error.figure(error.value(row)) + " in " + time_text(row.wall_ms) + " ms";
+    };
+    return {"With " + scene.name() + ", at a target of " + target_text(mark.target_ms) + " ms, " + mark.law + " has ",
+            key, front + ": " + has(mark) + "; " + setting_text(best) + " has " + has(best) + "."};
 }
 
 // The worst so far, and out of how many.

@@ -9,7 +9,8 @@ const largeLook = (width) => ({
 // What charts that are compared have in common.
 function rangeOf(scenes, error) {
   const rows = scenes.flatMap((scene) => scene.rows).filter((row) => isShown(row, error));
-  const times = rows.map((row) => row.ms).concat(front.frameMs);
+  const targets = rows.map((row) => row.targetMs).filter((ms) => ms > 0 && Number.isFinite(ms));
+  const times = [front.frameMs, ...targets, ...rows.map((row) => row.ms)];
   const { isMore } = front.errors[error];
   const heights = rows.map((row) => heightOf(row, error)).filter((height) => height !== Infinity);
   const finite = heights.filter(Number.isFinite);

@@ -58,7 +58,7 @@ function fillPanel(panel, scene, row) {
   const time = addHtml(panel, "p", "", { class: "time" });
   addHtml(time, "b", `${timeText(row.ms)} ms`);
   time.append(` (quartiles ${timeText(row.lowMs)} to ${timeText(row.highMs)})`);
-  if (row.processMs > 0) time.append(`, of all threads ${timeText(row.processMs)}`);
+  if (row.processMs > 0) time.append(`; all threads together ${timeText(row.processMs)}`);
   addCrops(panel, scene, row);
   addFacts(panel, "Error", errorFacts(row));
   addFacts(panel, "Drawn", drawnFacts(row));
