@@ -21,7 +21,7 @@ struct Look {
     int ticks;
 };
 constexpr Look small_look{220, 132, 30, 8, 8, 18, 1.6, 3, 2};
-constexpr Look large_look{900, 420, 52, 14, 18, 40, 4, 6.5, 6};
+constexpr Look large_look{900, 440, 54, 14, 22, 40, 4, 6.5, 6};
 
 struct Plot {
     Look look;
@@ -93,6 +93,15 @@ std::string x_ticks(const Plot& plot) {
         out += text(x, bottom + 15, "middle", sfsm::report::tick_text(ms));
     }
     return out;
+}
+
+// What the axes are, and the time of a frame.
+std::string titles(const Plot& plot) {
+    const Look& look = plot.look;
+    const std::string unit = plot.error.unit.empty() ? "" : " [" + std::string(plot.error.unit) + "]";
+    return text(2, 10, "start", std::string(plot.error.name) + unit) +
+           text(plot.at_ms(frame_ms), plot.y.end - 7, "middle", time_text(frame_ms) + " ms") +
+           text(plot.x.end, look.height - 4, "end", "time of a frame [ms] \u2192");
 }
 
 std::string frame_line(const Plot& plot) {
@@ -208,6 +217,7 @@ std::string chart_svg(const Scene& scene, const ErrorKind& error, const Range& r
                       "\" role=\"img\" aria-label=\"" + sfsm::report::escaped(scene.name()) + ": time against " +
                       std::string(error.name) + "\">\n";
     out += y_grid(plot, range) + x_ticks(plot) + frame_line(plot);
+    if (!plot.is_small()) out += titles(plot);
     out += front_line(plot, scene);
     for (std::size_t family = 0; family < families.size(); ++family)
         out += points(plot, scene, family, families[family]);

@@ -75,7 +75,11 @@ std::string target_text(double ms) {
 }
 
 std::string setting_text(const Row& row) {
-    return row.setting.empty() ? row.family : row.family + ", " + row.setting;
+    std::string setting = row.setting;
+    const std::string equals = "\u00A0=\u00A0";
+    for (std::size_t at = 0; (at = setting.find(" = ", at)) != setting.npos; at += equals.size())
+        setting.replace(at, 3, equals);
+    return setting.empty() ? row.family : row.family + ", " + setting;
 }
 
 }  // namespace bench::front

@@ -37,7 +37,7 @@ std::string time_text(double ms);
 // A target [ms] as short as it was given: "4", "16.6".
 std::string target_text(double ms);
 
-// How it was drawn: "native points, S = 1.4".
+// How it was drawn: "native points, S = 1.4", whose parts no line break tears apart.
 std::string setting_text(const Row& row);
 
 }  // namespace bench::front

@@ -18,7 +18,7 @@ function decodeRow([place, family, way, setting, law, target, wall, low, high, p
 for (const scene of front.scenes) scene.rows = scene.rows.map(decodeRow);
 
 const isMark = (row) => row.law !== "";
-const settingText = (row) => (row.setting === "" ? row.way : `${row.way}, ${row.setting}`);
+const settingText = (row) => (row.setting === "" ? row.way : `${row.way}, ${row.setting.replaceAll(" = ", "\u00a0=\u00a0")}`);
 const rowName = (row) => (isMark(row) ? `${row.law} at ${px(row.targetMs)} ms: ${settingText(row)}` : settingText(row));
 
 // How high it is in a chart: equal ratios of errors (of PSNR: differences) are equally high. -Infinity: the same picture.
