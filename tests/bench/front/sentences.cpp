@@ -16,8 +16,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // With two figures: 0.00087, 0.31, 4.2, 17.
 std::string two_figures(double value) {
     if (value == 0 || !std::isfinite(value)) return sfsm::report::figure(value, 0);
+    constexpr int most_digits = 12;
     const int power = static_cast<int>(std::floor(std::log10(std::abs(value))));
-    return sfsm::report::figure(value, std::max(0, 1 - power));
+    return sfsm::report::figure(value, std::clamp(1 - power, 0, most_digits));
 }
 
 std::string in_time(const Row& row, const ErrorKind& error) {

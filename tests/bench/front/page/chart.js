@@ -1,8 +1,8 @@
 // A scene's chart: time to the right, error upwards, both logarithmic. chart.cpp is its twin.
 
 const smallLook = { width: 220, height: 132, left: 30, right: 8, top: 8, bottom: 18, point: 1.6, mark: 3, ticks: 2 };
-const largeLook = (width) => ({
-  width, height: width < 600 ? 330 : 440, left: 54, right: 14, top: 22, bottom: 40,
+const largeLook = (width, isPrinting) => ({
+  width, height: width < 600 || isPrinting ? 330 : 440, left: 54, right: 14, top: 22, bottom: 40,
   point: 4, mark: 6.5, ticks: 6, isLarge: true,
 });
 
@@ -78,6 +78,11 @@ function frontPath(scene, { error, x, y }) {
   return path === "" ? "" : `${path}H${x.end}`;
 }
 
+// Where a row is [px of the chart], and its quartiles.
+function placeOf(row, { error, x, y }) {
+  return { row, x: x.at(row.ms), y: y.at(heightOf(row, error)), low: x.at(row.lowMs), high: x.at(row.highMs) };
+}
+
 function drawFamilies(svg, scene, plot, places) {
   const { look, error, x, y } = plot;
   front.families.forEach((name, family) => {
@@ -88,7 +93,7 @@ function drawFamilies(svg, scene, plot, places) {
     add(group, "path", { class: "curve", d: at.map(([left, top], i) => `${i === 0 ? "M" : "L"}${left} ${top}`).join("") });
     rows.forEach((row, i) => {
       add(group, "circle", { class: "point", "data-row": row.place, cx: at[i][0], cy: at[i][1], r: look.point });
-      places.push({ row, x: Number(at[i][0]), y: Number(at[i][1]) });
+      places.push(placeOf(row, plot));
     });
   });
 }
@@ -106,7 +111,8 @@ function lawClass(law) {
 }
 
 // A thin line leads from a mark to the target that it was given.
-function drawMarks(svg, scene, { look, error, x, y }, places) {
+function drawMarks(svg, scene, plot, places) {
+  const { look, error, x, y } = plot;
   for (const row of scene.rows.filter((shown) => isMark(shown) && isShown(shown, error))) {
     const left = x.at(row.ms), top = y.at(heightOf(row, error));
     if (look.isLarge && row.targetMs > 0) {
@@ -116,7 +122,7 @@ function drawMarks(svg, scene, { look, error, x, y }, places) {
       class: `mark law-${lawClass(row.law)}`, "data-row": row.place, d: markPath(row.law, look.mark),
       transform: `translate(${px(left)} ${px(top)})`,
     });
-    places.push({ row, x: left, y: top });
+    places.push(placeOf(row, plot));
   }
 }
 

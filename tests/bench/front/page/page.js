@@ -12,7 +12,7 @@ function firstChoice() {
 
 function drawLarge() {
   const width = view.printWidth ?? Math.max(byId("chart").clientWidth, 240);
-  view.places = drawChart(chart(), scene(), view.error, rangeOf([scene()], view.error), largeLook(width));
+  view.places = drawChart(chart(), scene(), view.error, rangeOf([scene()], view.error), largeLook(width, view.printWidth !== null));
   drawRing();
 }
 
@@ -22,7 +22,9 @@ function drawRing() {
   const place = view.places.find(({ row }) => row === view.shown);
   if (place === undefined) return;
   const ring = add(chart(), "g", { class: "ring" });
-  add(ring, "circle", { cx: px(place.x), cy: px(place.y), r: 10 });
+  const y = px(place.y);
+  if (place.low < place.high) add(ring, "path", { d: `M${px(place.low)} ${y}H${px(place.high)}m0 -5v10M${px(place.low)} ${y}m0 -5v10` });
+  add(ring, "circle", { cx: px(place.x), cy: y, r: 10 });
 }
 
 function show(row) {
