@@ -1,5 +1,6 @@
 #include "tests/bench/front/embedded.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 

@@ -173,7 +173,7 @@ std::string part(const Page& page, std::string_view name) {
     if (name == "paper") return paper_table(page.scenes);
     if (name == "meanings") return meanings();
     if (name == "data") return embedded(page.front, page.scenes, page.crops);
-    return script();
+    return name == "script" ? script() : "";
 }
 
 }  // namespace
