@@ -283,6 +283,37 @@ TEST(FrontPage, EveryRowHasItsPoint) {
         ASSERT_NE(html.find("data-row=\"" + std::to_string(i) + "\""), html.npos) << "row " << i << " without a script";
 }
 
+TEST(Chart, WhatIsExactLiesBelowAllElseAndIsNamed) {
+    const Scene scene =
+        scene_of_rows({setting("a", 5, 0.1, 30), setting("b", 9, 0.001, 60), setting("c", 12, 0, infinity)});
+    const auto height = [](const std::string& svg, int row) {
+        const std::size_t at = svg.find("data-row=\"" + std::to_string(row) + "\"");
+        return std::stod(svg.substr(svg.find("cy=\"", at) + 4));
+    };
+    for (const char* id : {"flip", "psnr"}) {
+        const Range range = range_of(std::span(&scene, 1), kind(id));
+        const std::string svg = chart_svg(scene, kind(id), range, {"native points"}, ChartSize::large);
+        EXPECT_LT(height(svg, 0), height(svg, 1)) << id << ": down is better";
+        EXPECT_LT(height(svg, 1) + 10, height(svg, 2)) << id;
+        EXPECT_NE(svg.find(">exact<"), svg.npos) << id;
+    }
+}
+
+TEST(Chart, EqualRatiosAreEquallyHigh) {
+    EXPECT_NEAR(kind("flip").height(setting("", 1, 0.2)) - kind("flip").height(setting("", 1, 0.1)), std::log10(2),
+                1e-12);
+    EXPECT_EQ(kind("flip").height(setting("", 1, 0)), -infinity);
+    EXPECT_EQ(kind("psnr").height(setting("", 1, 0, 30)), -30);
+    EXPECT_TRUE(std::isnan(kind("flip").height(setting("", 1, nan))));
+}
+
+TEST(Chart, LawsHaveShapesOfTheirOwn) {
+    std::set<std::string> shapes;
+    for (const std::string_view law : sfsm::law_names()) shapes.insert(mark_path(law, 6));
+    shapes.insert(mark_path("another", 6));
+    EXPECT_EQ(shapes.size(), sfsm::law_names().size() + 1);
+}
+
 TEST(FrontPage, RowsAreEmbeddedAsTheyAre) {
     const Front front = made_up_front();
     const json data = data_of(page_of(front, {}));
