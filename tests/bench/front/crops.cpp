@@ -1,7 +1,13 @@
 #include "tests/bench/front/crops.h"
 
+#define STB_IMAGE_WRITE_STATIC
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#include <stb_image_write.h>
+
 #include <algorithm>
 #include <cctype>
+#include <fstream>
+#include <iterator>
 
 #include "sfsm/number_text.h"
 
@@ -19,7 +25,7 @@ std::string as_file_name(const std::string& text) {
         else if (!name.empty() && name.back() != '-')
             name += '-';
     }
-    return name + ".png";
+    return name + ".jpg";
 }
 
 // Sums over all pixels above and to the left of each corner.
@@ -31,6 +37,12 @@ std::vector<std::int64_t> corner_sums(const std::vector<std::uint8_t>& crowd, in
             sums[(y + 1) * stride + x + 1] = sums[y * stride + x + 1] + sums[(y + 1) * stride + x] -
                                              sums[y * stride + x] + crowd[static_cast<std::size_t>(y) * width + x];
     return sums;
+}
+
+// Empty: it isn't there.
+std::string contents_of(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
 }
 
 }  // namespace
@@ -61,6 +73,16 @@ render::Image cut(const render::Image& image, const Place& place) {
     return out;
 }
 
+std::string encode_crop(const render::Image& image) {
+    constexpr int quality = 85, channels = 3;
+    std::string bytes;
+    const auto append = [](void* to, void* data, int size) {
+        static_cast<std::string*>(to)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
+    };
+    stbi_write_jpg_to_func(append, &bytes, image.width, image.height, channels, image.pixels.data(), quality);
+    return bytes;
+}
+
 std::string crop_name(const Row& row) {
     std::string text = std::to_string(row.people) + '-' + row.view + '-' + row.family + '-' + row.setting;
     if (row.is_mark()) text += '-' + row.law + '-' + sfsm::number_text(row.target_ms);
@@ -69,6 +91,20 @@ std::string crop_name(const Row& row) {
 
 std::string crop_name_of_reference(std::int64_t people, const std::string& view) {
     return as_file_name(std::to_string(people) + '-' + view + "-reference");
+}
+
+Crops read_crops(const Front& front, const std::filesystem::path& folder) {
+    Crops crops;
+    for (std::size_t i = 0; i < front.rows.size(); ++i) {
+        const Row& row = front.rows[i];
+        if (!row.is_preset) continue;
+        std::string image = contents_of(folder / crop_name(row));
+        if (!image.empty()) crops.of_rows.push_back({i, std::move(image)});
+        const auto [at, is_new] = crops.references.try_emplace({row.people, row.view});
+        if (is_new) at->second = contents_of(folder / crop_name_of_reference(row.people, row.view));
+    }
+    std::erase_if(crops.references, [](const auto& reference) { return reference.second.empty(); });
+    return crops;
 }
 
 }  // namespace bench::front

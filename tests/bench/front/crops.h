@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "render/image.h"
+#include "tests/bench/front/page_crops.h"
 #include "tests/bench/front/row.h"
 
 namespace bench::front {
@@ -22,8 +24,14 @@ Place busiest(const std::vector<std::uint8_t>& crowd, int width, int height);
 
 render::Image cut(const render::Image& image, const Place& place);
 
-// "20000-close-native-points-S-1.4.png"; of the reference: "20000-close-reference.png".
+// As a JPEG file's bytes.
+std::string encode_crop(const render::Image& image);
+
+// "20000-close-native-points-S-1.4.jpg"; of the reference: "20000-close-reference.jpg".
 std::string crop_name(const Row& row);
 std::string crop_name_of_reference(std::int64_t people, const std::string& view);
+
+// Those of presets that are in the folder: of everything the page would be too large.
+Crops read_crops(const Front& front, const std::filesystem::path& folder);
 
 }  // namespace bench::front

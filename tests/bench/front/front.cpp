@@ -17,6 +17,8 @@
 #include "render/gl/device.h"
 #include "render/gl/headless.h"
 #include "tests/bench/front/compare.h"
+#include "tests/bench/front/crops.h"
+#include "tests/bench/front/page.h"
 #include "tests/bench/front/run.h"
 #include "tests/bench/front/unfinished.h"
 
@@ -40,7 +42,7 @@ void add_options(CLI::App& app, Options& options) {
         ->delimiter(',');
     app.add_option("--views", options.part.views, "only these views: still, close, roam-4s ...")->delimiter(',');
     app.add_option("--only", options.part.families, "only these families: \"native points\", laws ...")->delimiter(';');
-    app.add_option("--out", options.out, "folder of front.csv and crops/")->capture_default_str();
+    app.add_option("--out", options.out, "folder of front.csv, front.html and crops/")->capture_default_str();
     app.add_option("--threads", options.threads, "threads to draw with; else one a processor")
         ->check(apps::whole_number(1, most_threads));
     CLI::Option* quick = app.add_flag("--quick", options.quick,
@@ -50,7 +52,7 @@ void add_options(CLI::App& app, Options& options) {
         ->needs(quick);
     apps::describe(app,
                    "Examples:\n"
-                   "  front                      everything: out/front.csv, in some twenty minutes\n"
+                   "  front                      everything: out/front.csv and .html, in some twenty minutes\n"
                    "  front --people 20000 --views close --only \"native points;native triangles\"\n"
                    "  front --quick              fails, and names what moved, if a count or an error did\n"
                    "A run that was broken off goes on where it was.");
@@ -97,9 +99,9 @@ std::filesystem::path references_folder(const Options& options) {
     return cache.empty() ? std::filesystem::path(options.out) / "references" : cache / "references";
 }
 
-void write_front(const std::string& path, const Front& front) {
+void write(const std::filesystem::path& path, const std::string& text) {
     apps::OutputFile file(path);
-    file.stream() << to_csv(front);
+    file.stream() << text;
     file.commit();
 }
 
@@ -121,9 +123,10 @@ void measure_all(const Options& options) {
             progress(share);
         });
     }
-    write_front((out / "front.csv").string(), front);
+    write(out / "front.csv", to_csv(front));
     unfinished.remove();
-    std::printf("%s: %zu rows\n", (out / "front.csv").c_str(), front.rows.size());
+    write(out / "front.html", page_of(front, read_crops(front, how.crops)));
+    std::printf("%s: %zu rows; %s\n", (out / "front.csv").c_str(), front.rows.size(), (out / "front.html").c_str());
 }
 
 Front read_front(const std::string& path) {
@@ -150,7 +153,7 @@ void measure_quickly(const Options& options) {
     Front found{this_machine(opengl.driver), {}};
     found.rows = run(plan(part), how, {}, [&](const Row&, double share) { progress(share); });
     for (Row& row : found.rows) row.wall_ms = row.wall_low_ms = row.wall_high_ms = row.process_ms = 0;  // of one frame
-    if (!options.write.empty()) return write_front(options.write, found);
+    if (!options.write.empty()) return write(options.write, to_csv(found));
     const std::vector<std::string> lines = moved(*committed, found);
     for (const std::string& line : lines) std::printf("%s\n", line.c_str());
     if (!lines.empty())

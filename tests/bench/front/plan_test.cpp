@@ -174,10 +174,10 @@ TEST(FrontCrops, EachRowHasANameOfItsOwn) {
     row.view = "close";
     row.family = "native mixture";
     row.setting = "D = 0.25 L, S = 1.4";
-    EXPECT_EQ(bench::front::crop_name(row), "20000-close-native-mixture-D-0.25-L-S-1.4.png");
+    EXPECT_EQ(bench::front::crop_name(row), "20000-close-native-mixture-D-0.25-L-S-1.4.jpg");
     row.law = "paper";
     row.target_ms = 16.6;
-    EXPECT_EQ(bench::front::crop_name(row), "20000-close-native-mixture-D-0.25-L-S-1.4-paper-16.6.png");
+    EXPECT_EQ(bench::front::crop_name(row), "20000-close-native-mixture-D-0.25-L-S-1.4-paper-16.6.jpg");
 }
 
 }  // namespace

@@ -25,8 +25,7 @@ const Row* find(const std::vector<Row>& rows, const Step& step) {
 
 void write_crop(const std::filesystem::path& path, const render::Image& image, const Place& place) {
     apps::OutputFile file(path);
-    const std::vector<std::uint8_t> bytes = render::encode_png(cut(image, place));
-    file.stream().write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    file.stream() << encode_crop(cut(image, place));
     file.commit();
 }
 
