@@ -33,13 +33,12 @@ bool Occlusion::hides_ball(const View& view, glm::vec3 center, float radius) con
     return hides(low, high, nearest, view);
 }
 
-bool Occlusion::hides_box(const View& view, const motion::Bounds& world_box) const {
+bool Occlusion::hides_box(const View& view, const motion::Bounds& box) const {
     glm::vec2 low(INFINITY), high(-INFINITY);
     float nearest = INFINITY;
     for (int corner = 0; corner < 8; ++corner) {
-        const glm::vec3 at = view.relative({corner & 1 ? world_box.max.x : world_box.min.x,
-                                            corner & 2 ? world_box.max.y : world_box.min.y,
-                                            corner & 4 ? world_box.max.z : world_box.min.z});
+        const glm::vec3 at = view.relative({corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                                            corner & 4 ? box.max.z : box.min.z});
         const float depth = view.depth(at);
         if (depth <= near_plane) return false;
         const glm::vec2 ndc(glm::dot(view.right, at) / (depth * view.tan_half_x),

@@ -16,10 +16,10 @@ struct Occlusion {
     int stride = 0, columns = 0, rows = 0;  // [blocks]
     float margin = 0;                       // [px] so far around what is asked about it may show as well
 
-    // Whether a camera-relative ball / a world box is hidden in every pixel. Never says so of what shows. `view` is the
-    // one that this was made for.
+    // Whether a camera-relative ball / a box told from the view's origin is hidden in every pixel. Never says so of
+    // what shows. `view` is the one that this was made for, from any origin.
     bool hides_ball(const View& view, glm::vec3 center, float radius) const;
-    bool hides_box(const View& view, const motion::Bounds& world_box) const;
+    bool hides_box(const View& view, const motion::Bounds& box) const;
 
 private:
     // Of normalized device coordinates, y up; and of the depth of what is nearest in there.

@@ -109,7 +109,7 @@ template <typename Visit>
 void Selector::for_each_visible(const Seen& seen, Visit visit) const {
     const scene::CrowdBlock& block = crowd_.blocks[seen.block];
     for (std::size_t person = block.first; person < block.first + block.count; ++person) {
-        const float depth = seen.whole() ? depth_of(person) : depth_[person];
+        const float depth = seen.whole() ? depth_of(seen, person) : depth_[person];
         if (depth > 0) visit(person, depth);
     }
 }
@@ -138,8 +138,9 @@ void Selector::find_blocks() {
     tbb::parallel_for(
         std::size_t{0}, blocks_.size(),
         [&](std::size_t block) {
-            blocks_[block].look = look_at(block);
-            blocks_[block].small = is_small(block);
+            const View view = view_.from(crowd_.blocks[block].origin);
+            blocks_[block].look = look_at(view, block);
+            blocks_[block].small = is_small(view, block);
         },
         tbb::static_partitioner());
     seen_.clear();
@@ -149,29 +150,30 @@ void Selector::find_blocks() {
         if (look == Look::hidden || look == Look::outside) continue;
         Seen& seen = seen_.emplace_back();
         seen.block = block;
+        seen.eye = view_.position - crowd_.blocks[block].origin;
         seen.inside = look == Look::inside;
         seen.small = blocks_[block].small;
         if (seen.whole()) seen.visible = crowd_.blocks[block].count;
     }
 }
 
-Selector::Look Selector::look_at(std::size_t block) const {
+Selector::Look Selector::look_at(const View& view, std::size_t block) const {
     const motion::Bounds& box = crowd_.blocks[block].box;
-    const Overlap seen = overlap(view_, box);
+    const Overlap seen = overlap(view, box);
     if (seen == Overlap::outside) return Look::outside;
-    if (around_.occlusion && around_.occlusion->hides_box(view_, {box.min - overhang_, box.max + overhang_}))
+    if (around_.occlusion && around_.occlusion->hides_box(view, {box.min - overhang_, box.max + overhang_}))
         return Look::hidden;
     return seen == Overlap::partly ? Look::partly : Look::inside;
 }
 
 // Whoever is as near as some radii may be drawn otherwise than their middle says.
-bool Selector::is_small(std::size_t block) const {
+bool Selector::is_small(const View& view, std::size_t block) const {
     const Block& known = blocks_[block];
     if (!known.stays || tick_ < crowd_.filled_tick || crowd_.size() < fewest_far_people) return false;
-    const DepthRange depths = depth_range(view_, crowd_.blocks[block].box);
+    const DepthRange depths = depth_range(view, crowd_.blocks[block].box);
     return depths.farthest - depths.nearest <= small_spread * depths.nearest &&
            depths.nearest >= options_.way->nearest * known.reach &&
-           known.tallest * view_.pixels_per_metre(depths.nearest) <= small_height_px;
+           known.tallest * view.pixels_per_metre(depths.nearest) <= small_height_px;
 }
 
 void Selector::find_visible(Seen& seen) {
@@ -179,7 +181,7 @@ void Selector::find_visible(Seen& seen) {
     for (std::size_t person = block.first; person < block.first + block.count; ++person) {
         const Kind& kind = kinds_[crowd_.character[person]];
         const float scale = scale_of(person), radius = scale * kind.radius;
-        const glm::vec3 middle = middle_of(person);
+        const glm::vec3 middle = middle_of(seen, person);
         float& depth = depth_[person];
         if ((!seen.inside && !sphere_visible(view_, middle, radius)) || !scene::has_arrived(crowd_, person, tick_))
             depth = unseen;
@@ -203,11 +205,13 @@ void Selector::find_range() {
         survey_.range = std::max(survey_.range, seen.range);
         if (!seen.whole()) continue;
         for (const Group& group : groups_of(seen))
-            reached = std::max(reached, view_.depth(view_.relative(group.middle)));
+            reached = std::max(reached, view_.depth(relative(group.middle, seen.eye)));
     }
     reached = std::max(reached, survey_.range);
     for (const Seen& seen : seen_) {
-        if (!seen.whole() || depth_range(view_, crowd_.blocks[seen.block].box).farthest < reached) continue;
+        if (!seen.whole()) continue;
+        const scene::CrowdBlock& block = crowd_.blocks[seen.block];
+        if (depth_range(view_.from(block.origin), block.box).farthest < reached) continue;
         for_each_visible(seen, [&](std::size_t, float depth) { survey_.range = std::max(survey_.range, depth); });
     }
 }
@@ -235,9 +239,9 @@ void Selector::forecast_as_one(const Seen& seen) {
     for (const Group& group : groups_of(seen)) {
         const std::uint64_t until = before + group.people;
         const std::uint64_t people = until * seen.visible / all - before * seen.visible / all;
-        const float depth = depth_of(group);
+        const float depth = depth_of(seen, group);
         forecaster_.add_block(group.character, group.role, static_cast<std::int64_t>(people), depth,
-                              mean_demand_of(group), view_.pixels_per_metre(depth));
+                              mean_demand_of(seen, group), view_.pixels_per_metre(depth));
         before = until;
     }
 }
@@ -264,7 +268,7 @@ void Selector::find_far_blocks(const sfsm::Decision& decision) {
     for (Seen& seen : seen_)
         seen.is_far =
             seen.small && decision.splat_size > 0 && std::ranges::all_of(groups_of(seen), [&](const Group& group) {
-                return forecaster_.serves_block(group.character, mean_demand_of(group), decision.splat_size);
+                return forecaster_.serves_block(group.character, mean_demand_of(seen, group), decision.splat_size);
             });
 }
 
@@ -291,7 +295,7 @@ void Selector::choose(Seen& seen, const sfsm::Decision& decision, std::int64_t l
 // ticks.
 void Selector::choose_as_one(Seen& seen, const sfsm::Decision& decision, std::int64_t last_tick) {
     const scene::CrowdBlock& block = crowd_.blocks[seen.block];
-    const float depth = std::max(view_.depth(view_.relative(block.box.center())), near_plane);
+    const float depth = std::max(view_.depth(relative(block.box.center(), seen.eye)), near_plane);
     const auto [period, due] = moves_of(block.first, depth, decision);
     constexpr int ticks_a_key = 8;
     const std::int64_t key_tick = motion::due_tick(due, ticks_a_key, crowd_.hash[block.first]);
@@ -326,22 +330,22 @@ float Selector::scale_of(std::size_t person) const {
     return crowd_.height[person] / figures_[crowd_.character[person]].poses->rest_height;
 }
 
-glm::vec3 Selector::middle_of(std::size_t person) const {
-    return spot_of(person, tick_).position + scale_of(person) * kinds_[crowd_.character[person]].center;
+glm::vec3 Selector::middle_of(const Seen& seen, std::size_t person) const {
+    return spot_of(seen, person, tick_).position + scale_of(person) * kinds_[crowd_.character[person]].center;
 }
 
-Selector::Spot Selector::spot_of(std::size_t person, std::int64_t tick) const {
-    if (!scene::follows_path(crowd_.role[person])) return {view_.relative(crowd_.position[person]), turns_[person]};
+Selector::Spot Selector::spot_of(const Seen& seen, std::size_t person, std::int64_t tick) const {
+    if (!scene::follows_path(crowd_.role[person])) return {relative(crowd_.position[person], seen.eye), turns_[person]};
     const scene::Placement placement = scene::place(crowd_, person, cast_[crowd_.character[person]], tick);
-    return {view_.relative(placement.position), turn_of(placement.yaw)};
+    return {relative(placement.position, seen.eye), turn_of(placement.yaw)};
 }
 
-float Selector::depth_of(std::size_t person) const {
-    return std::max(view_.depth(middle_of(person)), near_plane);
+float Selector::depth_of(const Seen& seen, std::size_t person) const {
+    return std::max(view_.depth(middle_of(seen, person)), near_plane);
 }
 
-float Selector::depth_of(const Group& group) const {
-    return std::max(view_.depth(view_.relative(group.middle)), near_plane);
+float Selector::depth_of(const Seen& seen, const Group& group) const {
+    return std::max(view_.depth(relative(group.middle, seen.eye)), near_plane);
 }
 
 float Selector::demand_at_unit_splat(std::size_t person, float depth) const {
@@ -352,8 +356,8 @@ float Selector::demand_at_unit_splat(std::size_t person, float depth) const {
     return options_.density * figures_[character].poses->area * pixels * pixels;
 }
 
-float Selector::mean_demand_of(const Group& group) const {
-    const float pixels = view_.pixels_per_metre(depth_of(group));
+float Selector::mean_demand_of(const Seen& seen, const Group& group) const {
+    const float pixels = view_.pixels_per_metre(depth_of(seen, group));
     return options_.density * figures_[group.character].poses->area * kinds_[group.character].mean_square * pixels *
            pixels;
 }
@@ -386,7 +390,7 @@ Person Selector::choose(std::size_t person, float depth, const sfsm::Decision& d
     const auto& [representation, level] = choices.all()[choice];
     const figures::Part part = figures::part_of(level, demand);
     const std::uint32_t pose = pose_of(person, due);
-    const Spot spot = spot_of(person, due);
+    const Spot spot = spot_of(seen, person, due);
     const bool stands = crowd_.role[person] != scene::Role::spectator || !member.sits;
     seen.work += part.work;
     seen.work[sfsm::WorkKind::motion_update] += due > last_tick;

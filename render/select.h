@@ -59,6 +59,7 @@ private:
     // A block that may show.
     struct Seen {
         std::uint32_t block = 0;                        // into Crowd::blocks
+        glm::dvec3 eye{0.0};                            // [m] where the camera is, from the block's origin
         bool inside = false;                            // no need to cull its people one by one
         bool small = false;                             // so small that its people are priced, and may be drawn, as one
         bool is_far = false;                            // they are drawn so
@@ -87,7 +88,7 @@ private:
         std::uint32_t character = 0;
         scene::Role role{};
         std::uint32_t people = 0;
-        glm::vec3 middle{0.0f};  // [m] world: mean of theirs
+        glm::vec3 middle{0.0f};  // [m] from the block's origin: mean of theirs
     };
     enum class Look : std::uint8_t { outside, hidden, partly, inside };
     static constexpr std::int64_t no_tick = std::numeric_limits<std::int64_t>::min();
@@ -110,15 +111,15 @@ private:
     void know_blocks();
     std::vector<std::vector<float>> find_spreads();
     void find_blocks();
-    Look look_at(std::size_t block) const;
-    bool is_small(std::size_t block) const;
+    Look look_at(const View& view, std::size_t block) const;
+    bool is_small(const View& view, std::size_t block) const;
     void find_visible(Seen& seen);
     void find_range();
     void forecast();
     void forecast_as_one(const Seen& seen);
     std::span<const Group> groups_of(const Seen& seen) const;
-    float depth_of(const Group& group) const;        // [m] of its middle, at least the near plane
-    float mean_demand_of(const Group& group) const;  // at S = 1 px
+    float depth_of(const Seen& seen, const Group& group) const;        // [m] of its middle, at least the near plane
+    float mean_demand_of(const Seen& seen, const Group& group) const;  // at S = 1 px
     // How often somebody so far away moves [ticks], and when they did last.
     struct Moves {
         int period;
@@ -134,9 +135,9 @@ private:
     float scale_of(std::size_t person) const;  // [m / model unit]
     float demand_at_unit_splat(std::size_t person, float depth) const;
     static Turn turn_of(float yaw);
-    Spot spot_of(std::size_t person, std::int64_t tick) const;
-    glm::vec3 middle_of(std::size_t person) const;  // [m] camera-relative, of their ball
-    float depth_of(std::size_t person) const;       // [m] of that, at least the near plane
+    Spot spot_of(const Seen& seen, std::size_t person, std::int64_t tick) const;
+    glm::vec3 middle_of(const Seen& seen, std::size_t person) const;  // [m] camera-relative, of their ball
+    float depth_of(const Seen& seen, std::size_t person) const;       // [m] of that, at least the near plane
     void sum_up();
     template <typename Visit>
     void for_each_visible(const Seen& seen, Visit visit) const;  // gets person and view depth

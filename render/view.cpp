@@ -56,9 +56,9 @@ bool same_view(const View& a, const View& b) {
            a.clip_from_camera_relative == b.clip_from_camera_relative;
 }
 
-Overlap overlap(const View& view, const motion::Bounds& world_box) {
-    const glm::vec3 center = view.relative(world_box.center());
-    const glm::vec3 half = 0.5f * world_box.size();
+Overlap overlap(const View& view, const motion::Bounds& box) {
+    const glm::vec3 center = view.relative(box.center());
+    const glm::vec3 half = 0.5f * box.size();
     Overlap result = Overlap::inside;
     for (const glm::vec4& plane : view.planes) {
         const glm::vec3 normal(plane);
@@ -70,9 +70,9 @@ Overlap overlap(const View& view, const motion::Bounds& world_box) {
     return result;
 }
 
-DepthRange depth_range(const View& view, const motion::Bounds& world_box) {
-    const float middle = view.depth(view.relative(world_box.center()));
-    const float reach = 0.5f * glm::dot(glm::abs(view.forward), world_box.size());
+DepthRange depth_range(const View& view, const motion::Bounds& box) {
+    const float middle = view.depth(view.relative(box.center()));
+    const float reach = 0.5f * glm::dot(glm::abs(view.forward), box.size());
     return {middle - reach, middle + reach};
 }
 

@@ -40,13 +40,16 @@ struct CastMember {
 struct CrowdBlock {
     std::uint32_t first = 0, count = 0;
     motion::Bounds box;  // [m] of everything its people may touch in any clip at any time
+    // [m] world. What floats say of its people, their path and this box is from here, so that they may be anywhere: a
+    // float32 has steps of a tenth of a millimetre at a kilometre, of a metre at 10,000.
+    glm::dvec3 origin{0.0};
 };
 
 struct Crowd {
     // One element a person, blocks contiguous.
-    // [m] Where the model's origin goes, so that who stands stands on the ground and who sits rests on the seat,
-    // whatever their size. For walkers and runners x = offset of their parallel of the path [m], y = height, z = arc at
-    // tick 0 [m].
+    // [m] From its block's origin: where the model's origin goes, so that who stands stands on the ground and who sits
+    // rests on the seat, whatever their size. For walkers and runners x = offset of their parallel of the path [m], y =
+    // height, z = arc at tick 0 [m].
     std::vector<glm::vec3> position;
     std::vector<float> yaw;     // [rad]
     std::vector<float> height;  // [m] standing, 1.5-2.0
@@ -65,7 +68,7 @@ struct Crowd {
 
 // Where and how one person is at a tick.
 struct Placement {
-    glm::vec3 position;  // [m] of the model's origin
+    glm::vec3 position;  // [m] of the model's origin, from their block's
     float yaw;           // [rad]
 };
 struct Action {

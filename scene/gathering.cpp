@@ -77,8 +77,8 @@ float Gathering::seat_lift(std::uint8_t character, float height) const {
     return seat_height * (1.0f - height / audience.poses[character].rest_height);
 }
 
-void Gathering::open_block() {
-    crowd.blocks.push_back({static_cast<std::uint32_t>(crowd.size()), 0, {}});
+void Gathering::open_block(const glm::dvec3& origin) {
+    crowd.blocks.push_back({static_cast<std::uint32_t>(crowd.size()), 0, {}, origin});
 }
 
 void Gathering::add(const Spot& spot) {

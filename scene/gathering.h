@@ -24,7 +24,8 @@ enum Salt : std::uint64_t {
 
 // Where somebody is, and as whom.
 struct Spot {
-    glm::vec3 position{0.0f};  // [m] of the floor that they stand on; of walkers and runners as Crowd::position has it
+    glm::vec3 position{0.0f};  // [m] from their block's origin, of the floor that they stand on; of walkers and runners
+                               // as Crowd::position has it
     float yaw = 0;             // [rad]
     float height = 1.7f;       // [m]
     std::uint8_t character = 0;  // into Audience::cast
@@ -49,8 +50,9 @@ struct Gathering {
     // can't sit.
     float seat_lift(std::uint8_t character, float height) const;
 
-    // People are added to the open block. One that is closed with nobody in it is dropped.
-    void open_block();
+    // People are added to the open block, as far from `origin` [m, world] as their spots say; a few kilometres at most
+    // (docs/precision.md). One that is closed with nobody in it is dropped.
+    void open_block(const glm::dvec3& origin = glm::dvec3(0.0));
     void add(const Spot& spot);
     void close_block();
 

@@ -1,4 +1,4 @@
-// A line on the ground that people walk and run along, and its parallels.
+// A line on the ground that people walk and run along, and its parallels; from the origin of its people's block.
 #pragma once
 
 #include <glm/glm.hpp>

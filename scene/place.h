@@ -18,4 +18,8 @@ struct Place {
     Cameras cameras;
 };
 
+// All of it elsewhere, by so much [m], cameras included; it looks the same from there. Up to 10,000 km its pictures are
+// off by a fiftieth of a pixel at most (docs/precision.md).
+void move(Place& place, const glm::dvec3& by);
+
 }  // namespace scene

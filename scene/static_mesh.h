@@ -13,7 +13,7 @@ namespace scene {
 enum class Surface : std::uint8_t { painted, ground };
 
 struct StaticVertex {
-    glm::vec3 position;  // [m]
+    glm::vec3 position;  // [m] from the mesh's origin
     glm::vec3 normal;    // unit
     glm::u8vec4 color;   // sRGB; alpha: static_cast of Surface
     float open = 1;      // how much reaches it of the light from above and below, [0, 1]; the sun's is not meant
@@ -29,6 +29,7 @@ struct StaticMesh {
     std::vector<StaticVertex> vertices;
     std::vector<std::uint32_t> indices;  // three a triangle, counter-clockwise seen from outside
     std::vector<StaticSector> sectors;
+    glm::dvec3 origin{0.0};  // [m] world: of vertices and boxes, and of where the ground's shader looks
 };
 
 }  // namespace scene

@@ -44,7 +44,7 @@ void StaticMeshBuilder::box(glm::vec3 center, glm::vec3 x, glm::vec3 y, glm::vec
     face(-y, x, z, others);
 }
 
-// Finer where cameras are, so that world x and z interpolate exactly enough to draw lines from.
+// Finer where cameras are, so that x and z interpolate exactly enough to draw lines from.
 void StaticMeshBuilder::ground() {
     constexpr Color unseen = {146, 143, 137, static_cast<std::uint8_t>(Surface::ground)};
     constexpr std::array lines{-250.0f, -120.0f, -80.0f, -40.0f, 0.0f, 40.0f, 80.0f, 120.0f, 250.0f};  // [m]

@@ -2,10 +2,10 @@
 #include "contact_grid.glsl"
 in vec3 at;  // camera-relative [m]
 #endif
-in vec2 ground;  // world x, z [m]
+in vec2 ground;  // x, z from the structure's origin [m]
 out vec4 color;
 
-// What a file of shaders/grounds/ is: the surface's linear colour at world x, z [m].
+// What a file of shaders/grounds/ is: the surface's linear colour at that place.
 vec3 surface_at(vec2 p);
 
 void main() {

@@ -50,11 +50,14 @@ CONSTANT attribute_uv = attribute_palette + slot_vectors;
 CONSTANT attribute_shares = attribute_palette + slot_vectors;
 
 // Vertex attributes of very far people, who stay where they are.
-CONSTANT attribute_far_center = 0;     // world position of the middle [m]; side of a square as large as the surface [m]
+CONSTANT attribute_far_center = 0;     // the middle, from the block's origin [m]; side of a square as large as the
+                                       // surface [m]
 CONSTANT attribute_far_turn = 1;       // snorm 16 x 2: sin, cos of the yaw
 CONSTANT attribute_far_character = 2;  // uint 8
 CONSTANT attribute_far_key = 3;        // uint 8
 CONSTANT attribute_far_palette = 4;    // slot_count of unorm 8 x 4: sRGB of slots 1 to slot_count
+
+CONSTANT uniform_far_eye = 0;  // the camera, from the block's origin [m]
 
 // The grid of directions that they are looked at from (render/native/far_looks.h).
 CONSTANT far_rings = 9;
@@ -75,7 +78,7 @@ CONSTANT texture_unit_looks = 1;
 // Once a frame.
 BLOCK_BEGIN(Frame, 0)
 mat4 clip_from_camera_relative;  // world axes, camera at the origin, to clip space; reversed depth
-vec4 camera_position;            // [m] world
+vec4 camera_position;            // [m] from the structure's origin
 vec4 sun_direction;              // towards the sun, unit
 vec4 sun_color;                  // linear
 vec4 sky_light;                  // linear, from above

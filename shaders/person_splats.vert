@@ -1,10 +1,11 @@
 // A very far person as one splat: as large as their silhouette, of its mean light. figures/splats.h says what that is;
 // render/native/far_people.cpp does the same.
-layout(location = attribute_far_center) in vec4 center;  // world [m]; w: side of a square as large as the surface [m]
+layout(location = attribute_far_center) in vec4 center;  // from the block's origin [m]; w: side of a square as large as the surface [m]
 layout(location = attribute_far_turn) in vec2 turn;      // sin, cos of the yaw
 layout(location = attribute_far_character) in uint character;
 layout(location = attribute_far_palette) in vec4 palette[slot_count];
 layout(location = attribute_far_key) in uint key;
+layout(location = uniform_far_eye) uniform vec3 eye;     // the camera [m], from there as well
 // By character: across, the nodes of a ring for each azimuth of the sun, for each slot; down, the rings for each key.
 // Of a slot the light where its own colour is white; the fourth values are those of no slot, and the silhouette in
 // shares of the surface.
@@ -21,7 +22,7 @@ float diamond(vec2 v) {
 vec2 unturned(vec3 v) { return vec2(turn.y * v.x - turn.x * v.z, turn.y * v.z + turn.x * v.x); }
 
 void main() {
-    vec3 position = center.xyz - Frame.camera_position.xyz;
+    vec3 position = center.xyz - eye;
     gl_Position = Frame.clip_from_camera_relative * vec4(position, 1.0);
     vec3 to_eye = -position;
     float up = to_eye.y / (abs(to_eye.y) + length(to_eye.xz));

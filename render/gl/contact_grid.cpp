@@ -79,8 +79,8 @@ void ContactGrid::for_each_cell(const ContactShade& shade, Visit visit) const {
         for (int x = x0; x <= x1; ++x) visit(static_cast<std::size_t>(y) * columns_ + x);
 }
 
-bool ContactGrid::touches(const View& view, const motion::Bounds& world_box) const {
-    const glm::vec3 low = view.relative(world_box.min), high = view.relative(world_box.max);
+bool ContactGrid::touches(const View& view, const motion::Bounds& box) const {
+    const glm::vec3 low = view.relative(box.min), high = view.relative(box.max);
     return std::ranges::any_of(shades_, [&](const ContactShade& shade) {
         const glm::vec3 away = shade.feet - glm::clamp(shade.feet, low, high);
         const float reach = shade.radius + margin;

@@ -18,8 +18,8 @@ public:
     // Uploads a frame's, and binds them.
     void fill(const Frame& frame);
 
-    // Whether any may darken something in a world box of the last frame's view.
-    bool touches(const View& view, const motion::Bounds& world_box) const;
+    // Whether any may darken something in a box told from the origin of `view`, the last frame's.
+    bool touches(const View& view, const motion::Bounds& box) const;
 
 private:
     void choose_cells();

@@ -54,7 +54,8 @@ bool is_worth_an_occluder() {
 
 Renderer::Renderer(const scene::StaticMesh& structure, const scene::Ground& ground, const scene::Light& light,
                    std::span<const figures::Figure> figures, int width, int height)
-    : backdrop_(structure, ground),
+    : origin_(structure.origin),
+      backdrop_(structure, ground),
       drawers_(make_figure_drawers()),
       far_(figures, light),
       frame_block_(Buffer::create()),
@@ -73,7 +74,8 @@ Renderer::Renderer(const scene::StaticMesh& structure, const scene::Ground& grou
 }
 
 Surroundings Renderer::begin(const View& view) {
-    return {backdrop_.work(view), occluder_ ? occluder_->look(view) : nullptr};
+    const View here = view.from(origin_);
+    return {backdrop_.work(here), occluder_ ? occluder_->look(here) : nullptr};
 }
 
 void Renderer::resize(int width, int height) {
@@ -97,7 +99,8 @@ void Renderer::resize(int width, int height) {
 }
 
 void Renderer::draw(const Frame& frame) {
-    upload_frame(frame.view, frame.splat_size);
+    const View here = frame.view.from(origin_);
+    upload_frame(here, frame.splat_size);
     upload_people(frame);
 
     glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
@@ -115,7 +118,7 @@ void Renderer::draw(const Frame& frame) {
     draw_people();
     far_.draw(frame);
     contact_.fill(frame);
-    backdrop_.draw(frame.view, contact_);
+    backdrop_.draw(here, contact_);
 }
 
 void Renderer::upload_frame(const View& view, double splat_size) {

@@ -55,6 +55,7 @@ private:
     void upload_people(const Frame& frame);
     void draw_people() const;
 
+    glm::dvec3 origin_;  // the structure's
     Backdrop backdrop_;
     ContactGrid contact_;
     std::optional<native::Occluder> occluder_;

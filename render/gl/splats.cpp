@@ -65,15 +65,29 @@ void FarDrawer::draw(const Frame& frame) {
     if (frame.far_people.crowd != crowd_) upload_crowd(frame.far_people);
     // A fresh store each frame: the device may still be reading the last one.
     glNamedBufferData(keys_.name(), static_cast<GLsizeiptr>(crowd_->size()), frame.far_people.keys, GL_STREAM_DRAW);
-    first_.clear();
-    count_.clear();
-    for (const FarBlock& block : frame.far_blocks) {
-        first_.push_back(static_cast<GLint>(crowd_->blocks[block.block].first));
-        count_.push_back(static_cast<GLsizei>(crowd_->blocks[block.block].count));
-    }
     glUseProgram(program_.name());
     glBindTextureUnit(texture_unit_looks, looks_.name());
     glBindVertexArray(array_.name());
+    const std::span<const FarBlock> all = frame.far_blocks;
+    for (std::size_t first = 0, end = 0; first < all.size(); first = end) {
+        const glm::dvec3& origin = origin_of(all[first]);
+        while (end < all.size() && origin_of(all[end]) == origin) ++end;
+        draw_from(glm::vec3(frame.view.position - origin), all.subspan(first, end - first));
+    }
+}
+
+const glm::dvec3& FarDrawer::origin_of(const FarBlock& block) const {
+    return crowd_->blocks[block.block].origin;
+}
+
+void FarDrawer::draw_from(glm::vec3 eye, std::span<const FarBlock> blocks) {
+    first_.clear();
+    count_.clear();
+    for (const FarBlock& block : blocks) {
+        first_.push_back(static_cast<GLint>(crowd_->blocks[block.block].first));
+        count_.push_back(static_cast<GLsizei>(crowd_->blocks[block.block].count));
+    }
+    glUniform3f(uniform_far_eye, eye.x, eye.y, eye.z);
     glMultiDrawArrays(GL_POINTS, first_.data(), count_.data(), static_cast<GLsizei>(first_.size()));
 }
 

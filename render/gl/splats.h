@@ -22,6 +22,9 @@ public:
 private:
     void look_at_figures();
     void upload_crowd(const FarPeople& people);
+    const glm::dvec3& origin_of(const FarBlock& block) const;
+    // All of one origin, from which the camera is at `eye` [m].
+    void draw_from(glm::vec3 eye, std::span<const FarBlock> blocks);
 
     std::vector<figures::Figure> figures_;
     scene::Light light_;

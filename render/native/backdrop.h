@@ -20,8 +20,9 @@ public:
     // Copies what it needs. Throws std::runtime_error when there is no native form of the ground's shader.
     Backdrop(const scene::StaticMesh& structure, const scene::Ground& ground, const scene::Light& light);
 
-    // Readies a view for painting; of at most largest_picture either way. Runs on the threads of the caller's arena;
-    // the result is the same for any number of them. Allocates only where a view needs more than every one before.
+    // Readies a view, told from the structure's origin, for painting; of at most largest_picture either way. Runs on
+    // the threads of the caller's arena; the result is the same for any number of them. Allocates only where a view
+    // needs more than every one before.
     void aim(const View& view);
 
     // Of the sectors in the last view, whether they face it or not: what the work is counted by.

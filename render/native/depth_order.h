@@ -10,7 +10,8 @@
 
 namespace render::native {
 
-// Numbers of people, the nearest first; who are equally far, to a millionth of it, stay in their order. Reused.
+// Numbers of people, the nearest first; who are equally far, within a kilometre to a sixteenth of a metre, stay in
+// their order. Reused.
 class DepthOrder {
 public:
     void sort(std::span<const Person* const> people);

@@ -100,7 +100,7 @@ std::uint32_t stage(const FarScene& scene, const FarBlockOnScreen& block, Part p
     Float at[3];
     hn::LoadInterleaved3(floats, &crowd.position[person].x, at[0], at[1], at[2]);
     for (int axis = 0; axis < 3; ++axis)
-        at[axis] = hn::Sub(hn::Sub(at[axis], set(scene.camera[0][axis])), set(scene.camera[1][axis]));
+        at[axis] = hn::Sub(hn::Sub(at[axis], set(block.eye[0][axis])), set(block.eye[1][axis]));
     const Float center[3] = {of_character(scene.center_x), of_character(scene.center_y), of_character(scene.center_z)};
     at[0] = hn::Add(at[0], hn::Mul(scale, hn::Add(hn::Mul(cosine, center[0]), hn::Mul(sine, center[2]))));
     at[1] = hn::Add(at[1], hn::Mul(scale, center[1]));
@@ -481,8 +481,6 @@ std::array<float, 3> FarCrowd::leaning_of(const Look& look, float ring) const {
 void FarCrowd::prepare(const Frame& frame, float cell) {
     const View& view = frame.view;
     scene_.people = frame.far_people;
-    scene_.camera[0] = glm::vec3(view.position);
-    scene_.camera[1] = glm::vec3(view.position - glm::dvec3(scene_.camera[0]));
     scene_.right = view.right;
     scene_.up = view.up;
     scene_.forward = view.forward;
@@ -501,8 +499,9 @@ void FarCrowd::prepare(const Frame& frame, float cell) {
     });
 }
 
-FarBlockOnScreen FarCrowd::ready(const View& view, const FarBlock& far) const {
+FarBlockOnScreen FarCrowd::ready(const View& world, const FarBlock& far) const {
     const scene::CrowdBlock& block = scene_.people.crowd->blocks[far.block];
+    const View view = world.from(block.origin);
     const DepthRange depths = depth_range(view, block.box);
     const float extent = depths.farthest - depths.nearest;
     FarBlockOnScreen out;
@@ -512,6 +511,8 @@ FarBlockOnScreen FarCrowd::ready(const View& view, const FarBlock& far) const {
     out.character = look.is_mixed ? -1 : static_cast<std::int32_t>(look.character);
     out.first = block.first;
     out.count = block.count;
+    out.eye[0] = glm::vec3(view.position);
+    out.eye[1] = glm::vec3(view.position - glm::dvec3(out.eye[0]));
     const glm::vec3 middle = view.relative(block.box.center());
     const Between between = between_nodes(middle == glm::vec3(0.0f) ? -view.forward : -middle);
     out.leaning = leaning_of(look, static_cast<float>(between.node[0] / ring_nodes) + between.up);

@@ -26,6 +26,7 @@ inline constexpr float lowest_tall = 1.25f;
 struct FarBlockOnScreen : InDepth {
     std::int32_t character;        // of all its people; < 0: they are of several
     std::uint32_t first, count;    // people
+    std::array<glm::vec3, 2> eye;  // [m] the camera from its origin: the nearest floats, and what they lack
     std::array<float, 3> leaning;  // of red, green, blue: 12 times Leaning's lean over its mean
     bool in_rows;
     bool is_tall;                 // somebody may be two splats
@@ -46,7 +47,6 @@ struct FarCover {
 // The same for all blocks.
 struct FarScene {
     FarPeople people;
-    std::array<glm::vec3, 2> camera;  // [m] world: the nearest floats, and what they lack
     glm::vec3 right, up, forward;
     float cells_at_one_metre;     // that a metre covers at a depth of one
     std::array<float, 2> center;  // [cells] the picture's
@@ -86,7 +86,7 @@ public:
 
 private:
     void look_at(const scene::Crowd& crowd);
-    FarBlockOnScreen ready(const View& view, const FarBlock& block) const;
+    FarBlockOnScreen ready(const View& world, const FarBlock& block) const;
 
     // What a block's people are like.
     struct Look {

@@ -32,9 +32,9 @@ public:
     // Copies what it needs: what is painted, not the ground, behind which nobody is.
     explicit Occluder(const scene::StaticMesh& structure);
 
-    // Valid until the next call; kept while the view stays. Null for a picture larger than largest_picture, and from
-    // within the structure, where nobody is behind it. Runs on the threads of the caller's arena; the result is the
-    // same for any number of them.
+    // Of a view told from the structure's origin. Valid until the next call; kept while the view stays. Null for a
+    // picture larger than largest_picture, and from within the structure, where nobody is behind it. Runs on the
+    // threads of the caller's arena; the result is the same for any number of them.
     const Occlusion* look(const View& view);
 
 private:

@@ -49,7 +49,11 @@ std::uint64_t digest_of(std::span<const Person> people) {
 
 Renderer::Renderer(const scene::StaticMesh& structure, const scene::Ground& ground, const scene::Light& light,
                    std::span<const figures::Figure> figures, int width, int height)
-    : backdrop_(structure, ground, light), triangles_(figures, light), points_(figures, light), far_(figures, light) {
+    : origin_(structure.origin),
+      backdrop_(structure, ground, light),
+      triangles_(figures, light),
+      points_(figures, light),
+      far_(figures, light) {
     resize(width, height);
 }
 
@@ -70,7 +74,7 @@ Surroundings Renderer::begin(const View& view) {
     Surroundings out;
     if (!has_backdrop_ || !same_view(view, view_)) {
         view_ = view;
-        backdrop_.aim(view);
+        backdrop_.aim(view.from(origin_));
         for_each_tile(grid_.count(), [&](std::size_t tile) { backdrop_.paint(grid_.tile(tile), behind_); });
         out.work[sfsm::WorkKind::structure_triangle] = backdrop_.triangles();
         out.work[sfsm::WorkKind::pixel] = std::int64_t{width_} * height_;

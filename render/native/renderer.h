@@ -70,6 +70,7 @@ private:
     void draw_far_block(const FarBlockOnScreen& block, Easel& easel, Layers layers) const;
     void draw_point_person(const SplatPerson& person, Easel& easel, Layers layers) const;
 
+    glm::dvec3 origin_;  // the structure's
     Backdrop backdrop_;
     TrianglePeople triangles_;
     PointPeople points_;

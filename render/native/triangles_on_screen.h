@@ -44,7 +44,7 @@ struct Corners {
     explicit Corners(const std::vector<glm::vec3>& positions);
 
     std::size_t count = 0;                       // a multiple of 16
-    hwy::AlignedFreeUniquePtr<float[]> x, y, z;  // [m] world
+    hwy::AlignedFreeUniquePtr<float[]> x, y, z;  // [m] from the structure's origin
 };
 
 // The corners as a view sees them.
@@ -59,7 +59,7 @@ struct ScreenCorners {
 inline constexpr std::int32_t outside_left = 1, outside_right = 2, outside_top = 4, outside_bottom = 8;
 inline constexpr std::int32_t clipped = 16;  // before the near plane, beyond the guard band, or not finite
 
-// out: of as many as `corners`.
+// `view`: told from the same origin; out: of as many as `corners`.
 void project(const View& view, const Corners& corners, ScreenCorners& out);
 
 using Triangle = std::array<std::uint32_t, 3>;  // indices of corners, counter-clockwise seen from outside

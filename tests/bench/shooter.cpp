@@ -118,7 +118,7 @@ scene::Crowd some_of(const scene::Crowd& crowd, std::uint32_t first, std::uint32
     some.path = crowd.path;
     scene::CrowdBlock block{0, count, {}};
     for (const scene::CrowdBlock& one : crowd.blocks)
-        if (one.first <= first && first < one.first + one.count) block.box = one.box;
+        if (one.first <= first && first < one.first + one.count) block = {0, count, one.box, one.origin};
     some.blocks = {block};
     return some;
 }

@@ -360,18 +360,19 @@ private:
 
     void draw_structure() {
         const scene::StaticMesh& mesh = *scene_.structure;
+        const glm::dvec3 eye = camera_.position - mesh.origin;
         for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
             const scene::StaticVertex* corner[3];
             for (std::size_t k = 0; k < 3; ++k) corner[k] = &mesh.vertices[mesh.indices[i + k]];
             std::array<glm::dvec3, 3> at;
-            for (std::size_t k = 0; k < 3; ++k) at[k] = glm::dvec3(corner[k]->position) - camera_.position;
+            for (std::size_t k = 0; k < 3; ++k) at[k] = glm::dvec3(corner[k]->position) - eye;
             const bool is_ground = corner[2]->color.a == static_cast<std::uint8_t>(scene::Surface::ground);
             const glm::dvec3 painted = stored(linear(corner[2]->color) * light_on(corner[2]->normal, corner[2]->open));
             triangle(at, false, [&](const Spot& spot) {
                 if (!is_ground) return Shade::exactly(painted);
                 const auto xz = [&](const glm::dvec3& by) {
-                    const glm::dvec3 world = camera_.position + by.x * at[0] + by.y * at[1] + by.z * at[2];
-                    return glm::dvec2(world.x, world.z);
+                    const glm::dvec3 place = eye + by.x * at[0] + by.y * at[1] + by.z * at[2];
+                    return glm::dvec2(place.x, place.z);
                 };
                 const glm::dvec2 here = xz(spot.share);
                 const glm::dvec2 to_right = xz(spot.right) - here, to_below = xz(spot.below) - here;

@@ -130,12 +130,15 @@ std::vector<Person> people_of(const scene::Crowd& crowd, std::span<const scene::
                               std::span<const motion::PoseTable> tables, std::span<const Figure> figures,
                               const Camera& camera, const sfsm::Decision& decision, std::int64_t tick) {
     std::vector<Person> people;
+    std::size_t block = 0;
     for (std::size_t i = 0; i < crowd.size(); ++i) {
+        while (i >= std::size_t{crowd.blocks[block].first} + crowd.blocks[block].count) ++block;
+        const glm::dvec3 origin = crowd.blocks[block].origin;
         const std::size_t character = crowd.character[i];
         const Figure& figure = figures[character];
         const double scale = crowd.height[i] / figure.height();
         // How often they move and how many points they need follow from the depth of their middle now.
-        const glm::dvec3 middle = glm::dvec3(scene::place(crowd, i, cast[character], tick).position) +
+        const glm::dvec3 middle = origin + glm::dvec3(scene::place(crowd, i, cast[character], tick).position) +
                                   glm::dvec3(0, scale * figure.middle(), 0);
         const double depth = std::max(glm::dot(middle - camera.position, camera.forward), Camera::near);
         const std::int64_t due = last_move(tick, depth, decision, crowd.hash[i]);
@@ -145,7 +148,7 @@ std::vector<Person> people_of(const scene::Crowd& crowd, std::span<const scene::
         person.figure = &figure;
         person.slot = action.clip;
         person.tick = action.clip_tick;
-        person.origin = placement.position;
+        person.origin = origin + glm::dvec3(placement.position);
         person.yaw = placement.yaw;
         person.scale = scale;
         person.palette = crowd.palette[i];

@@ -16,7 +16,8 @@ glm::dvec3 stored(const glm::dvec3& linear);
 // Along a ray of any length.
 Shade sky(const glm::dvec3& ray);
 
-// At world x, z, where a pixel may look anywhere within `blur` [m]. `scene` says where the track is.
+// At x, z from the structure's origin, where a pixel may look anywhere within `blur` [m]. `scene` says where the track
+// is.
 Shade ground(const Scene& scene, const glm::dvec2& xz, double blur);
 
 // The same, the mean over one pixel whose middle is at `xz` and whose sides reach `to_right` and `to_below` [m].
