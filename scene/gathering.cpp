@@ -1,8 +1,11 @@
 #include "scene/gathering.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "scene/person.h"
@@ -108,6 +111,10 @@ void Gathering::close_block() {
         if (i == block.first) block.box = reach;
         include(block.box, reach);
     }
+    const glm::vec3 far = glm::max(glm::abs(block.box.min), glm::abs(block.box.max));
+    if (const float widest = std::max({far.x, far.y, far.z}); !(widest <= widest_block))
+        throw std::invalid_argument("a block of people reaches " + std::to_string(widest) +
+                                    " m from its origin, expected at most " + std::to_string(widest_block) + " m");
     if (audience.progress) audience.progress(static_cast<double>(crowd.size()) / static_cast<double>(audience.people));
 }
 

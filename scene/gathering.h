@@ -50,8 +50,11 @@ struct Gathering {
     // can't sit.
     float seat_lift(std::uint8_t character, float height) const;
 
-    // People are added to the open block, as far from `origin` [m, world] as their spots say; a few kilometres at most
-    // (docs/precision.md). One that is closed with nobody in it is dropped.
+    static constexpr float widest_block = 8'192;  // [m] from its origin
+
+    // People are added to the open block, as far from `origin` [m, world] as their spots say: best a kilometre or two
+    // (docs/precision.md). One that is closed with nobody in it is dropped. close_block() throws std::invalid_argument
+    // if anybody may be farther from it than widest_block.
     void open_block(const glm::dvec3& origin = glm::dvec3(0.0));
     void add(const Spot& spot);
     void close_block();

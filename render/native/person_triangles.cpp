@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
 #include "model/unorm.h"
 #include "render/native/clip.h"
@@ -58,7 +57,8 @@ glm::dmat4x3 place_of(const motion::Bounds& box, const Instance& instance) {
             glm::dvec3(instance.position) + scale * turn(glm::dvec3(box.min))};
 }
 
-// None: nobody to be drawn.
+}  // namespace
+
 std::optional<Placement> placement_of(const View& view, const glm::vec3& to_sun, const motion::Bounds& box,
                                       const Instance& instance) {
     const glm::dmat4x3 place = place_of(box, instance);
@@ -80,6 +80,8 @@ std::optional<Placement> placement_of(const View& view, const glm::vec3& to_sun,
     if (!usable(p.across) || !usable(p.down) || !usable(p.depth)) return std::nullopt;
     return p;
 }
+
+namespace {
 
 // The least and the greatest depth of anything in the pose table's box.
 std::array<float, 2> depth_range(const Form& depth) {

@@ -4,6 +4,7 @@
 #include <hwy/aligned_allocator.h>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "render/frame.h"
@@ -17,6 +18,10 @@ namespace render::native {
 
 // Linear light of `light` on a normal.
 Daylight daylight_of(const scene::Light& light);
+
+// None: nobody to be drawn. `box`: of the pose table.
+std::optional<Placement> placement_of(const View& view, const glm::vec3& to_sun, const motion::Bounds& box,
+                                      const Instance& instance);
 
 // Reused: allocates until it has seen the largest mesh.
 class PersonTriangles {

@@ -356,9 +356,10 @@ StaticMesh build_structure(const StadiumPlan& plan) {
     builder.close_sector();
     builder.ground();
     builder.close_sector();
-    builder.mesh.vertices.shrink_to_fit();
-    builder.mesh.indices.shrink_to_fit();
-    return std::move(builder.mesh);
+    StaticMesh mesh = std::move(builder.mesh);
+    mesh.vertices.shrink_to_fit();
+    mesh.indices.shrink_to_fit();
+    return mesh;
 }
 
 }  // namespace scene

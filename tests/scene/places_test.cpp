@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "scene/gathering.h"
 #include "tests/scene/fake_cast.h"
@@ -111,6 +112,21 @@ TEST(Gathering, BoxesAreInMetresWhateverAModelsUnits) {
             }
         }
     }
+}
+
+// What float32 tells from an origin must be near it (docs/precision.md).
+TEST(Gathering, RefusesABlockThatReachesTooFarFromItsOrigin) {
+    const tests::FakeCast cast = tests::sitters();
+    const auto stand_at = [&](glm::vec3 at) {
+        scene::Gathering gathering({1, cast.members, cast.poses, 1}, nullptr);
+        gathering.open_block({4e6, 0, 5e6});
+        gathering.add({.position = at, .character = 0});
+        gathering.close_block();
+        return gathering.crowd.blocks.at(0).origin;
+    };
+    EXPECT_EQ(stand_at({8'000, 0, -8'000}), glm::dvec3(4e6, 0, 5e6));
+    for (const glm::vec3 at : {glm::vec3(8'200, 0, 0), glm::vec3(0, 0, -8'200), glm::vec3(0, NAN, 0)})
+        EXPECT_THROW(stand_at(at), std::invalid_argument) << at.x << ", " << at.z;
 }
 
 TEST(Gathering, DropsABlockWithNobodyInIt) {
