@@ -340,7 +340,7 @@ void add_section(Builder& builder, std::size_t section) {
 }  // namespace
 
 StaticMesh build_structure(const StadiumPlan& plan) {
-    Builder builder{{}, plan, SectionLight(plan)};
+    Builder builder{StaticMeshBuilder(), plan, SectionLight(plan)};
     const std::size_t sections = plan.spokes.size();
     const std::size_t sectors = std::min(sections, target_sectors);
     for (std::size_t sector = 0; sector < sectors; ++sector) {
