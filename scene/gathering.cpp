@@ -112,8 +112,8 @@ void Gathering::close_block() {
         include(block.box, reach);
     }
     const glm::vec3 far = glm::max(glm::abs(block.box.min), glm::abs(block.box.max));
-    if (const float widest = std::max({far.x, far.y, far.z}); !(widest <= widest_block))
-        throw std::invalid_argument("a block of people reaches " + std::to_string(widest) +
+    if (!glm::all(glm::lessThanEqual(far, glm::vec3(widest_block))))
+        throw std::invalid_argument("a block of people reaches " + std::to_string(std::max({far.x, far.y, far.z})) +
                                     " m from its origin, expected at most " + std::to_string(widest_block) + " m");
     if (audience.progress) audience.progress(static_cast<double>(crowd.size()) / static_cast<double>(audience.people));
 }
