@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 
@@ -29,13 +30,13 @@ std::string as_file_name(const std::string& text) {
 }
 
 // Sums over all pixels above and to the left of each corner.
-std::vector<std::int64_t> corner_sums(const std::vector<std::uint8_t>& crowd, int width, int height) {
+std::vector<std::int64_t> corner_sums(const std::vector<std::uint8_t>& detail, int width, int height) {
     const std::size_t stride = static_cast<std::size_t>(width) + 1;
     std::vector<std::int64_t> sums(stride * (static_cast<std::size_t>(height) + 1));
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)
             sums[(y + 1) * stride + x + 1] = sums[y * stride + x + 1] + sums[(y + 1) * stride + x] -
-                                             sums[y * stride + x] + crowd[static_cast<std::size_t>(y) * width + x];
+                                             sums[y * stride + x] + detail[static_cast<std::size_t>(y) * width + x];
     return sums;
 }
 
@@ -47,8 +48,28 @@ std::string contents_of(const std::filesystem::path& path) {
 
 }  // namespace
 
-Place busiest(const std::vector<std::uint8_t>& crowd, int width, int height) {
-    const std::vector<std::int64_t> sums = corner_sums(crowd, width, height);
+std::vector<std::uint8_t> detail_of(const render::Image& image, const std::vector<std::uint8_t>& crowd) {
+    std::vector<std::uint8_t> detail(crowd.size());
+    const auto at = [&](int x, int y) {
+        const std::size_t pixel = static_cast<std::size_t>(std::min(y, image.height - 1)) * image.width +
+                                  static_cast<std::size_t>(std::min(x, image.width - 1));
+        constexpr int channels = 3;
+        return &image.pixels[channels * pixel];
+    };
+    const auto apart = [](const std::uint8_t* a, const std::uint8_t* b) {
+        return (std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2])) / 6;  // two of them fit a byte
+    };
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const std::size_t pixel = static_cast<std::size_t>(y) * image.width + x;
+            const int differs = apart(at(x, y), at(x + 1, y)) + apart(at(x, y), at(x, y + 1));
+            if (crowd[pixel] != 0) detail[pixel] = static_cast<std::uint8_t>(differs);
+        }
+    return detail;
+}
+
+Place busiest(const std::vector<std::uint8_t>& detail, int width, int height) {
+    const std::vector<std::int64_t> sums = corner_sums(detail, width, height);
     const auto sum_at = [&](int x, int y) { return sums[static_cast<std::size_t>(y) * (width + 1) + x]; };
     Place best{0, 0, std::min(crop_width, width), std::min(crop_height, height)};
     std::int64_t most = -1;
@@ -84,9 +105,9 @@ std::string encode_crop(const render::Image& image) {
 }
 
 std::string crop_name(const Row& row) {
-    std::string text = std::to_string(row.people) + '-' + row.view + '-' + row.family + '-' + row.setting;
-    if (row.is_mark()) text += '-' + row.law + '-' + sfsm::number_text(row.target_ms);
-    return as_file_name(text);
+    const std::string place = std::to_string(row.people) + '-' + row.view + '-';
+    if (row.is_mark()) return as_file_name(place + row.law + '-' + sfsm::number_text(row.target_ms));
+    return as_file_name(place + row.family + '-' + row.setting);
 }
 
 std::string crop_name_of_reference(std::int64_t people, const std::string& view) {

@@ -18,16 +18,21 @@ struct Place {
     int x = 0, y = 0, width = 0, height = 0;  // [px]
 };
 
-// Where most of the crowd's pixels are (an element a pixel of a picture so large, 1 or 0); the first from the top of
-// several. All of a picture that is smaller than a crop.
-Place busiest(const std::vector<std::uint8_t>& crowd, int width, int height);
+// What there is to lose of each of the crowd's pixels (an element each, 1 or 0): how far it differs from those to the
+// right of it and below.
+std::vector<std::uint8_t> detail_of(const render::Image& image, const std::vector<std::uint8_t>& crowd);
+
+// Where the sum of these (an element a pixel of a picture so large) is largest; the first from the top of several. All
+// of a picture that is smaller than a crop.
+Place busiest(const std::vector<std::uint8_t>& detail, int width, int height);
 
 render::Image cut(const render::Image& image, const Place& place);
 
 // As a JPEG file's bytes.
 std::string encode_crop(const render::Image& image);
 
-// "20000-close-native-points-S-1.4.jpg"; of the reference: "20000-close-reference.jpg".
+// "20000-close-native-points-S-1.4.jpg"; of what a law chose: "20000-close-paper-16.6.jpg"; of the reference:
+// "20000-close-reference.jpg".
 std::string crop_name(const Row& row);
 std::string crop_name_of_reference(std::int64_t people, const std::string& view);
 

@@ -1,17 +1,29 @@
 #include "tests/bench/front/marks.h"
 
+#include <cmath>
+#include <cstdio>
+
 #include "tests/bench/times.h"
 
 namespace bench::front {
 
 namespace {
 
+std::string three_digits(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", value);
+    return text;
+}
+
 // Of whatever was chosen: the family that would have been asked for it.
 Setting native_setting(const sfsm::Decision& decision) {
     Setting setting{.family = "native triangles", .name = "4 samples", .state = decision.state};
     if (decision.state == sfsm::State::original) return setting;
-    setting.family = decision.state == sfsm::State::slowed ? "native motion" : "native mixture";
-    setting.name = "chosen";
+    const bool has_points = decision.state == sfsm::State::points, slows = std::isfinite(decision.motion_distance);
+    setting.family = !has_points ? "native motion" : slows ? "native mixture" : "native points";
+    setting.name = slows ? "D = " + three_digits(decision.motion_distance) + " m" : "";
+    if (slows && has_points) setting.name += ", ";
+    if (has_points) setting.name += "S = " + three_digits(decision.splat_size);
     return setting;
 }
 

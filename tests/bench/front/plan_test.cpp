@@ -152,7 +152,13 @@ TEST(FrontCompare, OpenGlIsComparedOnlyOfOneDriver) {
     EXPECT_EQ(bench::front::moved({machine, {row}}, {machine, {}}).size(), 1u);
 }
 
-TEST(FrontCrops, AreWhereMostOfTheCrowdIs) {
+TEST(FrontCrops, DetailIsOfTheCrowdAlone) {
+    const render::Image image{3, 1, {0, 0, 0, 60, 60, 60, 0, 0, 0}};
+    EXPECT_EQ(bench::front::detail_of(image, {1, 1, 1}), (std::vector<std::uint8_t>{30, 30, 0}));
+    EXPECT_EQ(bench::front::detail_of(image, {0, 1, 1}), (std::vector<std::uint8_t>{0, 30, 0}));
+}
+
+TEST(FrontCrops, AreWhereMostOfTheDetailIs) {
     constexpr int width = 400, height = 300;
     std::vector<std::uint8_t> crowd(std::size_t{width} * height);
     for (int y = 150; y < 230; ++y)
@@ -177,7 +183,7 @@ TEST(FrontCrops, EachRowHasANameOfItsOwn) {
     EXPECT_EQ(bench::front::crop_name(row), "20000-close-native-mixture-D-0.25-L-S-1.4.jpg");
     row.law = "paper";
     row.target_ms = 16.6;
-    EXPECT_EQ(bench::front::crop_name(row), "20000-close-native-mixture-D-0.25-L-S-1.4-paper-16.6.jpg");
+    EXPECT_EQ(bench::front::crop_name(row), "20000-close-paper-16.6.jpg");
 }
 
 }  // namespace

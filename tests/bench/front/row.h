@@ -12,28 +12,28 @@ namespace bench::front {
 
 // Against everybody at full triangles, moved every frame, 16 samples a pixel.
 struct ImageErrors {
-    double flip = 0;        // mean, [0, 1]
-    double psnr = 0;        // [dB]; infinite for the same picture
-    double ssim = 1;        // mean, of the luma
-    double brightness = 0;  // mean linear light over the reference's, less 1
+    double flip = 0;                      // mean, [0, 1]
+    double psnr = 0;                      // [dB]; infinite for the same picture
+    double ssim = 1;                      // mean, of the luma
+    double brightness = 0;                // mean linear light over the reference's, less 1
     double red = 0, green = 0, blue = 0;  // the same by channel
 };
 
 struct Row {
     // Where.
     std::int64_t people = 0;
-    std::string view;        // a preset, or a moment of the roaming path: "roam-12s"
+    std::string view;  // a preset, or a moment of the roaming path: "roam-12s"
     bool is_preset = false;
 
     // How.
-    std::string family;     // a way to draw: "native points", "OpenGL triangles"; rows of one are a curve
-    std::string setting;    // what tells it from the others of its family: "S = 1.4", "D = 20, S = 2"
-    std::string law;        // whose choice it is; empty: a setting that was asked for
-    double target_ms = 0;   // of the law
-    double density = 0;     // points a splat-sized square; 0: no points
-    int samples = 0;        // a pixel, of triangles
+    std::string family;    // a way to draw: "native points", "OpenGL triangles"; rows of one are a curve
+    std::string setting;   // what tells it from the others of its family: "S = 1.4", "D = 20, S = 2"
+    std::string law;       // whose choice it is; empty: a setting that was asked for
+    double target_ms = 0;  // of the law
+    double density = 0;    // points a splat-sized square; 0: no points
+    int samples = 0;       // a pixel, of triangles
     sfsm::Decision decision;
-    sfsm::Work work;        // counted; the same on every machine
+    sfsm::Work work;  // counted; the same on every machine
 
     // How far off.
     ImageErrors frame;       // all pixels

@@ -63,10 +63,10 @@ private:
         const auto shot = std::ranges::find(all, view, &Shot::name);
         if (shot == all.end()) throw std::logic_error("no view " + view);
         sight_ = std::make_unique<Sight>(*venue_, *shot, references_);
-        crop_place_ = busiest(sight_->judge().crowd(), size.width, size.height);
+        const Judge& judge = sight_->judge();
+        crop_place_ = busiest(detail_of(judge.reference().now, judge.crowd()), size.width, size.height);
         if (!options_.crops.empty())
-            write_crop(options_.crops / crop_name_of_reference(people, view), sight_->judge().reference().now,
-                       crop_place_);
+            write_crop(options_.crops / crop_name_of_reference(people, view), judge.reference().now, crop_place_);
     }
 
     const RunOptions& options_;
