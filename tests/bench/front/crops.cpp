@@ -11,6 +11,7 @@
 #include <iterator>
 
 #include "sfsm/number_text.h"
+#include "tests/bench/front/marks.h"
 
 namespace bench::front {
 
@@ -118,7 +119,7 @@ Crops read_crops(const Front& front, const std::filesystem::path& folder) {
     Crops crops;
     for (std::size_t i = 0; i < front.rows.size(); ++i) {
         const Row& row = front.rows[i];
-        if (!row.is_preset) continue;
+        if (!row.is_preset || std::ranges::find(marked_crowds, row.people) == std::end(marked_crowds)) continue;
         std::string image = contents_of(folder / crop_name(row));
         if (!image.empty()) crops.of_rows.push_back({i, std::move(image)});
         const auto [at, is_new] = crops.references.try_emplace({row.people, row.view});

@@ -36,7 +36,8 @@ std::string encode_crop(const render::Image& image);
 std::string crop_name(const Row& row);
 std::string crop_name_of_reference(std::int64_t people, const std::string& view);
 
-// Those of presets that are in the folder: of everything the page would be too large.
+// Those that are in the folder, of presets and of the crowds that laws are marked in: of everything the page would be
+// too large.
 Crops read_crops(const Front& front, const std::filesystem::path& folder);
 
 }  // namespace bench::front

@@ -31,6 +31,7 @@ struct Options {
     std::string out = "out";
     std::string committed = GRANDSTAND_QUICK;
     std::string write;
+    std::string page_of;  // a kept front; empty: measure one
     bool quick = false;
     int threads = 0;  // 0: as many as there are
 };
@@ -50,11 +51,13 @@ void add_options(CLI::App& app, Options& options) {
     app.add_option("--committed", options.committed, "the file that --quick compares with")->needs(quick);
     app.add_option("--write", options.write, "instead of comparing, write what --quick found to this file")
         ->needs(quick);
+    app.add_option("--page-of", options.page_of, "measure nothing: write the page of this front.csv")->excludes(quick);
     apps::describe(app,
                    "Examples:\n"
                    "  front                      everything: out/front.csv and .html, in some twenty minutes\n"
                    "  front --people 20000 --views close --only \"native points;native triangles\"\n"
                    "  front --quick              fails, and names what moved, if a count or an error did\n"
+                   "  front --page-of kept.csv   out/front.html of what another run measured\n"
                    "A run that was broken off goes on where it was.");
 }
 
@@ -99,10 +102,26 @@ std::filesystem::path references_folder(const Options& options) {
     return cache.empty() ? std::filesystem::path(options.out) / "references" : cache / "references";
 }
 
+Front read_front(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file) throw std::runtime_error("cannot read " + path + ", expected a front that was kept");
+    return from_csv(std::string(std::istreambuf_iterator<char>(file), {}), path);
+}
+
 void write(const std::filesystem::path& path, const std::string& text) {
     apps::OutputFile file(path);
     file.stream() << text;
     file.commit();
+}
+
+std::filesystem::path crops_folder(const Options& options) {
+    return std::filesystem::path(options.out) / "crops";
+}
+
+void write_page(const Options& options, const Front& front) {
+    const std::filesystem::path page = std::filesystem::path(options.out) / "front.html";
+    write(page, page_of(front, read_crops(front, crops_folder(options))));
+    std::printf("%s: %zu rows\n", page.c_str(), front.rows.size());
 }
 
 void measure_all(const Options& options) {
@@ -112,7 +131,7 @@ void measure_all(const Options& options) {
     const std::filesystem::path out = options.out;
     std::filesystem::create_directories(out);
     const RunOptions how{
-        .with_opengl = part.with_opengl, .references = references_folder(options), .crops = out / "crops"};
+        .with_opengl = part.with_opengl, .references = references_folder(options), .crops = crops_folder(options)};
     const Machine machine = this_machine(opengl.driver);
     Unfinished unfinished(out / "front.unfinished.csv", about(how, machine), machine);
     Front front{machine, {}};
@@ -125,14 +144,7 @@ void measure_all(const Options& options) {
     }
     write(out / "front.csv", to_csv(front));
     unfinished.remove();
-    write(out / "front.html", page_of(front, read_crops(front, how.crops)));
-    std::printf("%s: %zu rows; %s\n", (out / "front.csv").c_str(), front.rows.size(), (out / "front.html").c_str());
-}
-
-Front read_front(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file) throw std::runtime_error("cannot read " + path + ", expected a front that was kept");
-    return from_csv(std::string(std::istreambuf_iterator<char>(file), {}), path);
+    write_page(options, front);
 }
 
 // Those of one driver are those of another only by chance.
@@ -167,7 +179,9 @@ void go(const Options& options) {
     std::optional<tbb::global_control> limit;
     if (options.threads > 0)
         limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
-    if (options.quick)
+    if (!options.page_of.empty())
+        write_page(options, read_front(options.page_of));
+    else if (options.quick)
         measure_quickly(options);
     else
         measure_all(options);
