@@ -144,7 +144,7 @@ void measure_all(const Options& options) {
     }
     write(out / "front.csv", to_csv(front));
     unfinished.remove();
-    write_page(options, front);
+    write_page(options, read_front((out / "front.csv").string()));  // rounded as it is, for --page-of
 }
 
 // Those of one driver are those of another only by chance.
