@@ -7,10 +7,9 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 
 #include "sfsm/number_text.h"
+#include "tests/bench/front/files.h"
 #include "tests/bench/front/marks.h"
 
 namespace bench::front {
@@ -39,12 +38,6 @@ std::vector<std::int64_t> corner_sums(const std::vector<std::uint8_t>& detail, i
             sums[(y + 1) * stride + x + 1] = sums[y * stride + x + 1] + sums[(y + 1) * stride + x] -
                                              sums[y * stride + x] + detail[static_cast<std::size_t>(y) * width + x];
     return sums;
-}
-
-// Empty: it isn't there.
-std::string contents_of(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
 }
 
 }  // namespace
@@ -120,10 +113,10 @@ Crops read_crops(const Front& front, const std::filesystem::path& folder) {
     for (std::size_t i = 0; i < front.rows.size(); ++i) {
         const Row& row = front.rows[i];
         if (!row.is_preset || std::ranges::find(marked_crowds, row.people) == std::end(marked_crowds)) continue;
-        std::string image = contents_of(folder / crop_name(row));
+        std::string image = contents_of(folder / crop_name(row)).value_or("");
         if (!image.empty()) crops.of_rows.push_back({i, std::move(image)});
         const auto [at, is_new] = crops.references.try_emplace({row.people, row.view});
-        if (is_new) at->second = contents_of(folder / crop_name_of_reference(row.people, row.view));
+        if (is_new) at->second = contents_of(folder / crop_name_of_reference(row.people, row.view)).value_or("");
     }
     std::erase_if(crops.references, [](const auto& reference) { return reference.second.empty(); });
     return crops;

@@ -204,7 +204,8 @@ constexpr MachineLine machine_table[] = {
 // Takes lines from a text, and says where it is when something is wrong.
 class Lines {
 public:
-    Lines(std::string_view text, const std::string& name) : rest_(text), name_(name) {}
+    Lines(std::string_view text, const std::string& name, std::int64_t lines_before)
+        : rest_(text), name_(name), number_(lines_before) {}
 
     bool at_end() const { return rest_.empty(); }
     std::string_view next(const std::string& expected) {
@@ -224,7 +225,7 @@ public:
 private:
     std::string_view rest_;
     const std::string& name_;
-    std::int64_t number_ = 0;
+    std::int64_t number_;  // of the line that was read last
 };
 
 void read_machine(Lines& lines, Machine& machine) {
@@ -303,9 +304,9 @@ std::string to_csv(const Front& front) {
     return text;
 }
 
-Front from_csv(std::string_view text, const std::string& name) {
+Front from_csv(std::string_view text, const std::string& name, std::int64_t lines_before) {
     Front front;
-    Lines lines(text, name);
+    Lines lines(text, name, lines_before);
     read_machine(lines, front.machine);
     const std::string_view header = lines.next("the line of columns");
     if (header != header_line()) lines.fail("found other columns, expected '" + header_line() + "'");

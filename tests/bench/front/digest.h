@@ -36,9 +36,10 @@ public:
     }
     void add(double value) { add(std::as_bytes(std::span(&value, 1))); }
 
-    // 16 characters.
+    static constexpr std::size_t length = 16;  // of its text
+
     std::string text() const {
-        char text[17];
+        char text[length + 1];
         std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(state_));
         return text;
     }

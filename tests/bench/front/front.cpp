@@ -5,8 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 #include <optional>
 
 #include "apps/interrupt.h"
@@ -18,6 +16,7 @@
 #include "render/gl/headless.h"
 #include "tests/bench/front/compare.h"
 #include "tests/bench/front/crops.h"
+#include "tests/bench/front/files.h"
 #include "tests/bench/front/page.h"
 #include "tests/bench/front/run.h"
 #include "tests/bench/front/unfinished.h"
@@ -38,20 +37,31 @@ struct Options {
 
 void add_options(CLI::App& app, Options& options) {
     constexpr std::uint64_t most_people = 1'000'000, most_threads = 1024;
-    app.add_option("--people", options.part.people, "only crowds of so many")
-        ->check(apps::whole_number(1, most_people))
-        ->delimiter(',');
-    app.add_option("--views", options.part.views, "only these views: still, close, roam-4s ...")->delimiter(',');
-    app.add_option("--only", options.part.families, "only these families: \"native points\", laws ...")->delimiter(';');
+    CLI::Option* people = app.add_option("--people", options.part.people, "only crowds of so many")
+                              ->check(apps::whole_number(1, most_people))
+                              ->delimiter(',');
+    CLI::Option* views =
+        app.add_option("--views", options.part.views, "only these views: still, close, roam-4s ...")->delimiter(',');
+    CLI::Option* only =
+        app.add_option("--only", options.part.families, "only these families: \"native points\", laws ...")
+            ->delimiter(';');
     app.add_option("--out", options.out, "folder of front.csv, front.html and crops/")->capture_default_str();
     app.add_option("--threads", options.threads, "threads to draw with; else one a processor")
         ->check(apps::whole_number(1, most_threads));
     CLI::Option* quick = app.add_flag("--quick", options.quick,
                                       "counts and errors of 20,000 people in two views against the committed ones");
-    app.add_option("--committed", options.committed, "the file that --quick compares with")->needs(quick);
+    CLI::Option* committed =
+        app.add_option("--committed", options.committed, "the file that --quick compares with")->needs(quick);
     app.add_option("--write", options.write, "instead of comparing, write what --quick found to this file")
-        ->needs(quick);
-    app.add_option("--page-of", options.page_of, "measure nothing: write the page of this front.csv")->excludes(quick);
+        ->needs(quick)
+        ->excludes(committed);
+    CLI::Option* page_of =
+        app.add_option("--page-of", options.page_of, "measure nothing: write the page of this front.csv")
+            ->excludes(quick);
+    for (CLI::Option* part : {people, views, only}) {
+        quick->excludes(part);
+        page_of->excludes(part);
+    }
     apps::describe(app,
                    "Examples:\n"
                    "  front                      everything: out/front.csv and .html, in some twenty minutes\n"
@@ -64,15 +74,17 @@ void add_options(CLI::App& app, Options& options) {
 // The driver, where there is one.
 struct OpenGl {
     std::unique_ptr<render::gl::HeadlessContext> context;
-    std::string driver;  // empty: there is none
+    std::string driver;   // empty: there is none
+    std::string missing;  // why there is none
 
     OpenGl() {
         try {
             context = std::make_unique<render::gl::HeadlessContext>();
             const render::gl::Device device = render::gl::read_device();
             driver = device.renderer + ", " + device.version;
-        } catch (const std::runtime_error&) {
+        } catch (const std::runtime_error& error) {
             context.reset();
+            missing = error.what();
         }
     }
 };
@@ -103,9 +115,9 @@ std::filesystem::path references_folder(const Options& options) {
 }
 
 Front read_front(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file) throw std::runtime_error("cannot read " + path + ", expected a front that was kept");
-    return from_csv(std::string(std::istreambuf_iterator<char>(file), {}), path);
+    const std::optional<std::string> text = contents_of(path);
+    if (!text) throw std::runtime_error(path + ": found no such file, expected a front that was kept");
+    return from_csv(*text, path);
 }
 
 void write(const std::filesystem::path& path, const std::string& text) {
@@ -124,27 +136,48 @@ void write_page(const Options& options, const Front& front) {
     std::printf("%s: %zu rows\n", page.c_str(), front.rows.size());
 }
 
+// Before the work is done; it is left as it was.
+void require_writable(const std::filesystem::path& path) {
+    const apps::OutputFile probe(path);
+}
+
+// Never nothing.
+std::vector<Step> steps_of(const Part& part) {
+    std::vector<Step> steps = plan(part);
+    if (!steps.empty()) return steps;
+    throw std::runtime_error(
+        std::string("found nothing that --people, --views and --only all ask for") +
+        (part.with_opengl ? "" : " and that needs no OpenGL driver") +
+        ", expected a part of the comparison: laws are marked with 20000 or 1000000 people at presets");
+}
+
 void measure_all(const Options& options) {
     const OpenGl opengl;
     Part part = options.part;
     part.with_opengl = !opengl.driver.empty();
+    const std::vector<Step> steps = steps_of(part);
+    if (opengl.driver.empty())
+        std::fprintf(stderr, "front: nothing is measured of OpenGL: %s\n", opengl.missing.c_str());
     const std::filesystem::path out = options.out;
-    std::filesystem::create_directories(out);
+    make_folder(out);
+    require_writable(out / "front.csv");
+    require_writable(out / "front.html");
     const RunOptions how{
         .with_opengl = part.with_opengl, .references = references_folder(options), .crops = crops_folder(options)};
     const Machine machine = this_machine(opengl.driver);
     Unfinished unfinished(out / "front.unfinished.csv", about(how, machine), machine);
+    const std::vector<Row> known = unfinished.rows();
     Front front{machine, {}};
     {
         Progress progress;
-        front.rows = run(plan(part), how, unfinished.rows(), [&](const Row& row, double share) {
+        front.rows = run(steps, how, known, [&](const Row& row, double share) {
             unfinished.add(row);
             progress(share);
         });
     }
     write(out / "front.csv", to_csv(front));
-    unfinished.remove();
     write_page(options, read_front((out / "front.csv").string()));  // rounded as it is, for --page-of
+    unfinished.remove();
 }
 
 // Those of one driver are those of another only by chance.
@@ -155,7 +188,10 @@ bool uses_opengl(const Options& options, const std::optional<Front>& committed, 
 
 void measure_quickly(const Options& options) {
     std::optional<Front> committed;
-    if (options.write.empty()) committed = read_front(options.committed);
+    if (options.write.empty())
+        committed = read_front(options.committed);
+    else
+        require_writable(options.write);
     const OpenGl opengl;
     Part part{.people = {20'000}, .views = {"close", "remote"}, .with_marks = false};
     part.with_opengl = uses_opengl(options, committed, opengl.driver);

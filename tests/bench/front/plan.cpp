@@ -85,12 +85,14 @@ std::vector<Step> plan(const Part& part) {
     std::vector<std::int64_t> people = part.people;
     if (people.empty()) people.assign(std::begin(crowds), std::end(crowds));
     std::vector<Step> steps;
-    for (const std::int64_t count : people)
+    for (auto count = people.begin(); count != people.end(); ++count) {
+        if (std::find(people.begin(), count, *count) != count) continue;  // asked for twice
         for (const NamedView& view : all_views()) {
             if (!is_in(part.views, view.name)) continue;
-            add_settings(steps, part, count, view);
-            add_marks(steps, part, count, view);
+            add_settings(steps, part, *count, view);
+            add_marks(steps, part, *count, view);
         }
+    }
     return steps;
 }
 

@@ -60,6 +60,7 @@ TEST(FrontPlan, NoTwoStepsAreOfOneRow) {
         rows.insert(std::to_string(step.people) + step.view + step.law + std::to_string(step.target_ms) + "|" +
                     (step.setting ? step.setting->family + "|" + step.setting->name : ""));
     EXPECT_EQ(rows.size(), steps.size());
+    EXPECT_EQ(plan({.people = {300, 20, 300}}).size(), plan({.people = {300, 20}}).size());
 }
 
 TEST(FrontCrops, NoTwoStepsHaveOneName) {

@@ -68,7 +68,8 @@ struct Front {
 // A line a row below a line of columns; before them "# name: value" of the machine. Numbers as they are compared:
 // errors with 5 decimals, times with 3.
 std::string to_csv(const Front& front);
-// Throws std::runtime_error with one line: `name`, the line, what was found and what was expected.
-Front from_csv(std::string_view text, const std::string& name);
+// Throws std::runtime_error with one line: `name`, the line, what was found and what was expected. `lines_before`: of
+// the file, before `text`.
+Front from_csv(std::string_view text, const std::string& name, std::int64_t lines_before = 0);
 
 }  // namespace bench::front

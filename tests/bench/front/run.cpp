@@ -11,7 +11,7 @@
 #include "apps/interrupt.h"
 #include "apps/output.h"
 #include "tests/bench/front/crops.h"
-#include "tests/bench/front/digest.h"
+#include "tests/bench/front/files.h"
 #include "tests/bench/front/marks.h"
 
 namespace bench::front {
@@ -33,7 +33,7 @@ void write_crop(const std::filesystem::path& path, const render::Image& image, c
 class Run {
 public:
     explicit Run(const RunOptions& options) : options_(options), references_(options.references) {
-        if (!options.crops.empty()) std::filesystem::create_directories(options.crops);
+        if (!options.crops.empty()) make_folder(options.crops);
     }
 
     Row measure(const Step& step) {

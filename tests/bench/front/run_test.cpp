@@ -69,10 +69,20 @@ TEST_F(FrontRun, CountsAndErrorsAreTheSameInEveryRunAndOnAnyNumberOfThreads) {
     EXPECT_EQ(once, counted(run(steps)));  // of references that were kept
 }
 
+// In the midst of what it holds.
+void flip_a_bit(const fs::path& path) {
+    std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+    const auto middle = static_cast<std::streamoff>(fs::file_size(path) / 2);
+    file.seekg(middle);
+    const int byte = file.get();
+    file.seekp(middle);
+    file.put(static_cast<char>(byte ^ 4));
+}
+
 TEST_F(FrontRun, ReferencesAreDrawnOnceAndAgainWhereDamaged) {
     auto& venue = bench::front::small_venue();
     const auto shot = bench::front::shots(venue.stage().place.cameras, small_size.height).at(1);
-    bench::front::References first(folder_), second(folder_), third(folder_);
+    bench::front::References first(folder_), second(folder_), third(folder_), fourth(folder_);
     const auto drawn = first.of(venue, shot);
     EXPECT_EQ(first.drawn(), 3);
     const auto kept = second.of(venue, shot);
@@ -83,6 +93,9 @@ TEST_F(FrontRun, ReferencesAreDrawnOnceAndAgainWhereDamaged) {
     fs::resize_file(fs::directory_iterator(folder_)->path(), 100);
     EXPECT_EQ(third.of(venue, shot).now.pixels, drawn.now.pixels);
     EXPECT_EQ(third.drawn(), 1);
+    flip_a_bit(fs::directory_iterator(folder_)->path());
+    EXPECT_EQ(fourth.of(venue, shot).now.pixels, drawn.now.pixels);
+    EXPECT_EQ(fourth.drawn(), 1);
 }
 
 TEST_F(FrontRun, ErrorsShrinkAsSettingsGetFiner) {
@@ -186,7 +199,22 @@ TEST_F(FrontRun, DamagedRowsAreRefused) {
     const fs::path file = folder_ / "rows.csv";
     Unfinished(file, "this", {}).add(Row{});
     std::ofstream(file, std::ios::app) << "many,close\n";
+    try {
+        const Unfinished unfinished(file, "this", {});
+        FAIL() << "taken as whole";
+    } catch (const std::runtime_error& error) {
+        EXPECT_TRUE(std::string(error.what()).starts_with(file.string() + ":8: ")) << error.what();
+    }
+    fs::remove(file);
+    fs::create_directory(file);
     EXPECT_THROW(Unfinished(file, "this", {}), std::runtime_error);
+}
+
+// Of a program before or after this one.
+TEST_F(FrontRun, RowsOfOtherColumnsAreMeasuredAnew) {
+    const fs::path file = folder_ / "rows.csv";
+    std::ofstream(file) << "# about: this\n" << bench::front::machine_lines({}) << "people,sight\n3,close\n";
+    EXPECT_TRUE(Unfinished(file, "this", {}).rows().empty());
 }
 
 TEST_F(FrontRun, ALawInAClosedLoopSpendsWhatItsTargetAllows) {

@@ -2,12 +2,11 @@
 
 #include <cerrno>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <string_view>
 
 #include "tests/bench/front/csv.h"
+#include "tests/bench/front/files.h"
 
 namespace bench::front {
 
@@ -15,24 +14,20 @@ namespace {
 
 constexpr std::string_view about_start = "# about: ";
 
-std::string read_all(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
 // Of a run about the same; without what was being written when it was broken off.
 std::vector<Row> rows_of(const std::filesystem::path& path, const std::string& about) {
-    std::string text = read_all(path);
+    std::string text = contents_of(path).value_or("");
     text.resize(text.rfind('\n') + 1);  // nothing, if there is no line end
     if (text.empty()) return {};
     const std::string first = std::string(about_start) + about + '\n';
-    if (!text.starts_with(first)) {
-        std::fprintf(stderr, "front: %s is about another machine or another renderer; starting anew\n", path.c_str());
+    const bool has_columns = text.find('\n' + header_line() + '\n') != std::string::npos;
+    if (!text.starts_with(first) || !has_columns) {
+        std::fprintf(stderr, "front: %s is about another machine, another renderer or other columns; starting anew\n",
+                     path.c_str());
         return {};
     }
-    const std::string_view rest = std::string_view(text).substr(first.size());
-    const bool has_columns = rest.find(header_line()) != std::string_view::npos;
-    return has_columns ? from_csv(rest, path.string()).rows : std::vector<Row>{};
+    constexpr std::int64_t lines_before = 1;
+    return from_csv(std::string_view(text).substr(first.size()), path.string(), lines_before).rows;
 }
 
 }  // namespace

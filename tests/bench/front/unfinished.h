@@ -14,9 +14,9 @@ namespace bench::front {
 class Unfinished {
 public:
     // Opens the file, or makes it. `about`: of all that the rows depend on beside what they name, without a line end;
-    // rows about anything else are dropped, which is said on stderr. A last line without its end is dropped: the run
-    // was broken off within it. Throws std::runtime_error with one line for a file that can't be read or written, or is
-    // damaged.
+    // rows about anything else, or of other columns, are dropped, which is said on stderr. A last line without its end
+    // is dropped: the run was broken off within it. Throws std::runtime_error with one line for a file that can't be
+    // read or written, or is damaged.
     Unfinished(std::filesystem::path path, const std::string& about, const Machine& machine);
 
     const std::vector<Row>& rows() const { return rows_; }  // that were there, and came since
