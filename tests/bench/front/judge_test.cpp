@@ -141,6 +141,25 @@ TEST(FrontJudge, TheCrowdIsWhereItsReferencesDiffer) {
     EXPECT_NEAR(row.crowd.brightness, 0.21, 1e-9);
 }
 
+// FLIP and SSIM of a pixel come from those around it, but count where it lies: the frame's are the mean of its halves'.
+TEST(FrontJudge, ErrorsOfTheFrameAreTheMeanOfThoseOfItsHalves) {
+    constexpr int width = 24, height = 16;
+    const render::Image reference = noise(width, height, 10, 40, 100);
+    render::Image drawn = reference;
+    for (std::size_t i = 0; i < drawn.pixels.size() / 3; ++i) drawn.pixels[i] ^= 31;
+    const auto judged_in = [&](std::size_t first_half) {
+        render::Image nobody = reference;
+        const std::size_t half = nobody.pixels.size() / 2;
+        for (std::size_t i = 0; i < half; ++i) ++nobody.pixels[first_half * half + i];
+        return judged({reference, reference, nobody}, drawn, drawn);
+    };
+    const Row upper = judged_in(0), lower = judged_in(1);
+    EXPECT_GT(upper.crowd.flip, 2 * lower.crowd.flip);
+    EXPECT_LT(upper.crowd.ssim, lower.crowd.ssim - 0.1);
+    EXPECT_NEAR(upper.frame.flip, (upper.crowd.flip + lower.crowd.flip) / 2, 1e-9);
+    EXPECT_NEAR(upper.frame.ssim, (upper.crowd.ssim + lower.crowd.ssim) / 2, 1e-9);
+}
+
 TEST(FrontJudge, WithoutACrowdThereIsNoErrorOfIt) {
     const render::Image image = even(9, 9, 90), other = even(9, 9, 95);
     const Row row = judged({image, image, image}, other, other);

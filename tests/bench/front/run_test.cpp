@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "motion/schedule.h"
+#include "tests/bench/fidelity.h"
 #include "tests/bench/front/csv.h"
 #include "tests/bench/front/marks.h"
 #include "tests/bench/front/small_venue.h"
@@ -25,6 +26,7 @@ using bench::front::Part;
 using bench::front::plan;
 using bench::front::Row;
 using bench::front::RunOptions;
+using bench::front::Setting;
 using bench::front::small_size;
 using bench::front::Step;
 using bench::front::Unfinished;
@@ -96,6 +98,45 @@ TEST_F(FrontRun, ReferencesAreDrawnOnceAndAgainWhereDamaged) {
     flip_a_bit(fs::directory_iterator(folder_)->path());
     EXPECT_EQ(fourth.of(venue, shot).now.pixels, drawn.now.pixels);
     EXPECT_EQ(fourth.drawn(), 1);
+}
+
+// What the native renderer makes of everybody, at a size, from a camera, at a tick.
+render::Image triangles_of(const scene::CameraPose& pose, std::int64_t tick, int factor) {
+    auto& venue = bench::front::small_venue();
+    const render::View view = render::make_view(pose, factor * small_size.width, factor * small_size.height);
+    return venue.shooter(sfsm::Drawing::native).picture(view, bench::triangles(), tick);
+}
+
+TEST_F(FrontRun, ReferencesAreOfTheirCamerasAndTicks) {
+    auto& venue = bench::front::small_venue();
+    for (const int number : {1, 6}) {
+        const auto shot = bench::front::shots(venue.stage().place.cameras, small_size.height).at(number);
+        const auto references = bench::front::References(folder_).of(venue, shot);
+        constexpr int side = 4;
+        const auto expected = [&](const scene::CameraPose& pose, std::int64_t tick) {
+            return bench::box_filtered(triangles_of(pose, tick, side), side).pixels;
+        };
+        EXPECT_EQ(references.now.pixels, expected(shot.now, shot.tick)) << shot.name;
+        EXPECT_EQ(references.before.pixels, expected(shot.before, shot.tick - 1)) << shot.name;
+        EXPECT_NE(references.now.pixels, expected(shot.now, shot.tick - 1)) << shot.name;
+        EXPECT_NE(references.before.pixels, expected(shot.before, shot.tick)) << shot.name;
+    }
+}
+
+// However many frames are timed after it.
+TEST_F(FrontRun, JudgedAreTheFrameAndTheOneBefore) {
+    auto& venue = bench::front::small_venue();
+    bench::front::References references(folder_);
+    const auto shot = bench::front::shots(venue.stage().place.cameras, small_size.height).at(1);
+    const bench::front::Sight sight(venue, shot, references);
+    const Setting& triangles = *std::ranges::find(bench::front::settings(), "native triangles", &Setting::family);
+    const auto measured = bench::front::measure(sight, triangles, {5, 1e6});
+    const render::Image before = triangles_of(shot.before, shot.tick - 1, 1),
+                        now = triangles_of(shot.now, shot.tick, 1);
+    EXPECT_EQ(measured.picture.pixels, now.pixels);
+    EXPECT_NE(triangles_of(shot.now, shot.tick + 5, 1).pixels, now.pixels);
+    const auto& reference = sight.judge().reference();
+    EXPECT_EQ(measured.row.change, bench::change_error(before, now, reference.before, reference.now));
 }
 
 TEST_F(FrontRun, ErrorsShrinkAsSettingsGetFiner) {
@@ -222,17 +263,29 @@ TEST_F(FrontRun, ALawInAClosedLoopSpendsWhatItsTargetAllows) {
     const auto shot = bench::front::shots(venue.stage().place.cameras, small_size.height).at(1);
     bench::front::References references(folder_);
     const bench::front::Sight sight(venue, shot, references);
-    constexpr bench::front::Patience short_one{10, 20, 0, 1e6};
+    constexpr bench::front::Patience some_frames{60, 60, 0, 1e6};
     constexpr double never_met = 1e-3, always_met = 1e6;  // [ms]
     bench::front::Loop loop(sight, "predictive");
-    const auto easy = loop.mark(always_met, short_one, {});
-    const sfsm::Decision hard = loop.settle(never_met, short_one);
-    EXPECT_EQ(hard.state, sfsm::State::points);
-    EXPECT_GT(hard.splat_size, easy.row.decision.splat_size);
+    const auto easy = loop.mark(always_met, some_frames, {}), hard = loop.mark(never_met, some_frames, {});
+    EXPECT_EQ(easy.row.decision.state, sfsm::State::original);
+    EXPECT_EQ(hard.row.decision.state, sfsm::State::points);
+    EXPECT_GT(hard.row.decision.splat_size, 0);
     EXPECT_TRUE(easy.row.is_mark());
     EXPECT_EQ(easy.row.law, "predictive");
     EXPECT_EQ(easy.row.target_ms, always_met);
     EXPECT_TRUE(easy.row.family.starts_with("native"));
+}
+
+// The paper's law makes splats larger as long as frames take longer than its target, whatever they are drawn as.
+TEST_F(FrontRun, ALawIsToldWhatItsFramesTook) {
+    auto& venue = bench::front::small_venue();
+    const auto shot = bench::front::shots(venue.stage().place.cameras, small_size.height).at(1);
+    bench::front::References references(folder_);
+    const bench::front::Sight sight(venue, shot, references);
+    constexpr double never_met = 1e-3;  // [ms]
+    bench::front::Loop loop(sight, "paper");
+    EXPECT_EQ(loop.settle(never_met, {1, 1, 0, 1e6}).splat_size, 0);
+    EXPECT_GT(loop.settle(never_met, {60, 60, 0, 1e6}).splat_size, 8);
 }
 
 }  // namespace
