@@ -84,7 +84,8 @@ TEST_F(FrontProgram, SaysSoWhereThereIsNoDriver) {
     EXPECT_FALSE(fs::exists(folder_ / "none"));
 }
 
-// Killed within its work, it goes on; what was measured before stays as it was, to the last digit of its times.
+// Killed within its work, it goes on; what was measured before stays as it was, to the last digit of its times, until
+// all of it is kept elsewhere.
 TEST_F(FrontProgram, GoesOnAfterItWasKilled) {
     const std::string out = folder_ / "out", unfinished = out + "/front.unfinished.csv";
     {
@@ -94,8 +95,16 @@ TEST_F(FrontProgram, GoesOnAfterItWasKilled) {
     }
     std::string known = row_lines(tests::read_file(unfinished));
     known.resize(known.rfind('\n') + 1);
-    const Outcome rest = front("--people 300 --views close,remote --only \"native points\" --out " + out);
-    ASSERT_EQ(rest.code, 0) << rest.err;
+
+    const std::string rest = "--people 300 --views close,remote --only \"native points\" --out " + out;
+    const fs::path crop = out + "/crops/300-close-native-points-S-0.5.jpg";
+    ASSERT_TRUE(fs::exists(crop));
+    std::ofstream(crop) << "no picture";
+    refuses(rest, "found 10 bytes of something else, expected a PNG or JPEG");
+    EXPECT_EQ(row_lines(tests::read_file(unfinished)), row_lines(tests::read_file(out + "/front.csv")));
+
+    fs::remove(crop);
+    EXPECT_EQ(front(rest).code, 0);
     const std::string rows = row_lines(tests::read_file(out + "/front.csv"));
     EXPECT_TRUE(rows.starts_with(known));
     EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 1 + 2 * 9);
