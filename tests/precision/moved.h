@@ -63,20 +63,24 @@ public:
           renderer_(make(place)),
           selector_(place.crowd, cast, figures_, {.way = &way}) {}
 
-    // A picture; of how many people it was known beforehand that the structure hides them; and the blocks drawn as one.
+    // A picture; of how many people it was known beforehand that the structure hides them; the blocks drawn as one; and
+    // the depth of the farthest who is visible [m].
     struct Shot {
         render::Image image;
         std::int64_t hidden;
         std::size_t far_blocks;
+        float range;
     };
     Shot shoot(std::string_view camera, double splat_size, std::int64_t tick) {
         const render::View view = render::make_view(place_.cameras.named(camera).at(0), width, height);
         sfsm::Decision decision;
         if (splat_size > 0) decision = {sfsm::State::points, 1e6, splat_size};
-        const std::int64_t hidden = selector_.survey(view, tick, renderer_->begin(view)).hidden;
+        const render::Survey& survey = selector_.survey(view, tick, renderer_->begin(view));
+        const std::int64_t hidden = survey.hidden;
+        const float range = survey.range;
         const render::Frame& frame = selector_.select(decision, tick - 1);
         renderer_->draw(frame);
-        return {renderer_->read_image(), hidden, frame.far_blocks.size()};
+        return {renderer_->read_image(), hidden, frame.far_blocks.size(), range};
     }
 
 private:
@@ -121,6 +125,8 @@ inline void expect_alike(const scene::Place& here, const scene::Place& there, co
                 const Shooting::Shot a = one.shoot(camera, size, tick), b = other.shoot(camera, size, tick);
                 EXPECT_LE(difference(a.image, b.image), most) << camera << ", S " << size << ", tick " << tick;
                 EXPECT_NEAR(static_cast<double>(a.hidden), static_cast<double>(b.hidden), most) << camera;
+                constexpr float hair = 1e-3f;  // [m]: the camera's doubles are rounded
+                EXPECT_NEAR(a.range, b.range, most == 0 ? 0 : hair) << camera;
             }
 }
 
