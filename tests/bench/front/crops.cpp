@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <iterator>
 
 #include "sfsm/number_text.h"
 #include "tests/bench/front/files.h"
@@ -38,6 +39,38 @@ std::vector<std::int64_t> corner_sums(const std::vector<std::uint8_t>& detail, i
             sums[(y + 1) * stride + x + 1] = sums[y * stride + x + 1] + sums[(y + 1) * stride + x] -
                                              sums[y * stride + x] + detail[static_cast<std::size_t>(y) * width + x];
     return sums;
+}
+
+// Those that laws are marked in come first.
+std::vector<std::int64_t> crowds_by_use(const Front& front) {
+    std::vector<std::int64_t> crowds;
+    for (const bool marked : {true, false})
+        for (const Row& row : front.rows)
+            if (marked == (std::ranges::find(marked_crowds, row.people) != std::end(marked_crowds)) &&
+                std::ranges::find(crowds, row.people) == crowds.end())
+                crowds.push_back(row.people);
+    return crowds;
+}
+
+Crops crops_of(const Front& front, std::int64_t people, const std::filesystem::path& folder) {
+    Crops crops;
+    for (std::size_t i = 0; i < front.rows.size(); ++i) {
+        const Row& row = front.rows[i];
+        if (!row.is_preset || row.people != people) continue;
+        std::string image = contents_of(folder / crop_name(row)).value_or("");
+        if (!image.empty()) crops.of_rows.push_back({i, std::move(image)});
+        const auto [at, is_new] = crops.references.try_emplace({row.people, row.view});
+        if (is_new) at->second = contents_of(folder / crop_name_of_reference(row.people, row.view)).value_or("");
+    }
+    std::erase_if(crops.references, [](const auto& reference) { return reference.second.empty(); });
+    return crops;
+}
+
+std::size_t size_of(const Crops& crops) {
+    std::size_t bytes = 0;
+    for (const Crop& crop : crops.of_rows) bytes += crop.image.size();
+    for (const auto& [where, image] : crops.references) bytes += image.size();
+    return bytes;
 }
 
 }  // namespace
@@ -109,17 +142,17 @@ std::string crop_name_of_reference(std::int64_t people, const std::string& view)
 }
 
 Crops read_crops(const Front& front, const std::filesystem::path& folder) {
-    Crops crops;
-    for (std::size_t i = 0; i < front.rows.size(); ++i) {
-        const Row& row = front.rows[i];
-        if (!row.is_preset || std::ranges::find(marked_crowds, row.people) == std::end(marked_crowds)) continue;
-        std::string image = contents_of(folder / crop_name(row)).value_or("");
-        if (!image.empty()) crops.of_rows.push_back({i, std::move(image)});
-        const auto [at, is_new] = crops.references.try_emplace({row.people, row.view});
-        if (is_new) at->second = contents_of(folder / crop_name_of_reference(row.people, row.view)).value_or("");
+    constexpr std::size_t most_bytes = 2'500'000;
+    Crops all;
+    std::size_t bytes = 0;
+    for (const std::int64_t people : crowds_by_use(front)) {
+        Crops crops = crops_of(front, people, folder);
+        bytes += size_of(crops);
+        if (bytes > most_bytes && !all.of_rows.empty()) break;
+        std::ranges::move(crops.of_rows, std::back_inserter(all.of_rows));
+        all.references.merge(crops.references);
     }
-    std::erase_if(crops.references, [](const auto& reference) { return reference.second.empty(); });
-    return crops;
+    return all;
 }
 
 }  // namespace bench::front

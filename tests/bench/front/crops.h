@@ -36,8 +36,8 @@ std::string encode_crop(const render::Image& image);
 std::string crop_name(const Row& row);
 std::string crop_name_of_reference(std::int64_t people, const std::string& view);
 
-// Those that are in the folder, of presets and of the crowds that laws are marked in: of everything the page would be
-// too large.
+// Those of presets that are in the folder: of as many crowds as leave the page small enough to be sent, those first
+// that laws are marked in.
 Crops read_crops(const Front& front, const std::filesystem::path& folder);
 
 }  // namespace bench::front
