@@ -1,29 +1,20 @@
 // The report as a reader has it: in a headless browser, opened as a file, with a mouse, fingers and keys.
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <fstream>
 
+#include "tests/report/in_browser.h"
 #include "tests/report/sample.h"
-#include "tests/report/webdriver.h"
 
 namespace {
 
 using nlohmann::json;
 
-constexpr auto patience = std::chrono::seconds(30);
-
-class ReportInBrowser : public testing::Test {
+class ReportInBrowser : public tests::InBrowser {
 protected:
     void SetUp() override {
-        const std::string driver = tests::find_program({"chromedriver"});
-        const std::string program = tests::find_program({"chromium", "google-chrome"});
-        if (driver.empty() || program.empty()) {
-            GTEST_SKIP() << "found no " << (driver.empty() ? "chromedriver" : "chromium")
-                         << " in PATH: the report is NOT tested in a browser";
-        }
-        browser_ = std::make_unique<tests::Browser>(driver, program);
-        open(report_);
+        InBrowser::SetUp();
+        if (!IsSkipped()) open(report_);
     }
 
     void load(const sfsm::Report& report) {
@@ -36,16 +27,6 @@ protected:
     void open(const sfsm::Report& report) {
         load(report);
         wait_for("return document.querySelectorAll('#percentiles path.curve').length > 0");
-    }
-
-    json value(const std::string& script) const { return browser_->value(script); }
-
-    // Until the page says so: drawing waits for the browser.
-    void wait_for(const std::string& script) const {
-        const auto deadline = std::chrono::steady_clock::now() + patience;
-        while (value(script) != true) {
-            ASSERT_LT(std::chrono::steady_clock::now(), deadline) << "in vain: " << script;
-        }
     }
 
     // Where a frame is in a chart, in the middle of its height [px of the window].
@@ -127,8 +108,6 @@ protected:
     }
 
     sfsm::Report report_ = tests::sample_report();
-    tests::Directory folder_;
-    std::unique_ptr<tests::Browser> browser_;
 };
 
 TEST_F(ReportInBrowser, ConsoleStaysSilent) {

@@ -1,48 +1,30 @@
 // The page as a reader has it: in a headless browser, opened as a file, with a mouse, fingers and keys.
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <limits>
-#include <memory>
 #include <set>
 #include <utility>
 
 #include "tests/bench/front/made_up.h"
 #include "tests/bench/front/page.h"
-#include "tests/report/webdriver.h"
+#include "tests/report/in_browser.h"
 
 namespace {
 
 using nlohmann::json;
 
-constexpr auto patience = std::chrono::seconds(30);
-
-class FrontInBrowser : public testing::Test {
+class FrontInBrowser : public tests::InBrowser {
 protected:
     void SetUp() override {
-        const std::string driver = tests::find_program({"chromedriver"});
-        const std::string program = tests::find_program({"chromium", "google-chrome"});
-        if (driver.empty() || program.empty()) {
-            GTEST_SKIP() << "found no " << (driver.empty() ? "chromedriver" : "chromium")
-                         << " in PATH: the page is NOT tested in a browser";
-        }
-        browser_ = std::make_unique<tests::Browser>(driver, program);
-        open(front_, bench::front::made_up_crops(front_));
+        InBrowser::SetUp();
+        if (!IsSkipped()) open(front_, bench::front::made_up_crops(front_));
     }
 
     void open(const bench::front::Front& front, const bench::front::Crops& crops) {
         std::ofstream(folder_ / "front.html", std::ios::binary) << bench::front::page_of(front, crops);
         browser_->open("file://" + (folder_ / "front.html"));
-    }
-
-    json value(const std::string& script) const { return browser_->value(script); }
-    void wait_for(const std::string& script) const {
-        const auto deadline = std::chrono::steady_clock::now() + patience;
-        while (value(script) != true) {
-            ASSERT_LT(std::chrono::steady_clock::now(), deadline) << "in vain: " << script;
-        }
     }
 
     void press(const std::string& key) const {
@@ -74,8 +56,6 @@ protected:
     }
 
     bench::front::Front front_ = bench::front::made_up_front();
-    tests::Directory folder_;
-    std::unique_ptr<tests::Browser> browser_;
 };
 
 TEST_F(FrontInBrowser, ConsoleStaysSilent) {
