@@ -12,11 +12,10 @@
 
 namespace render::gl {
 
+// Views are told from the structure's origin.
 class Backdrop {
 public:
     Backdrop(const scene::StaticMesh& structure, const scene::Ground& ground);
-
-    // Views are told from the structure's origin.
 
     // What draw() draws: triangles of the sectors in view, and every pixel of the picture.
     sfsm::Work work(const View& view) const;

@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "render/contact_shade.h"
 #include "render/native/cell_grid.h"
+#include "render/native/linear_codes.h"
 #include "render/room.h"
 
 namespace render::native {
@@ -184,16 +184,6 @@ void weigh(const Sight& sight, const Gains& gains, SplatPerson& out) {
     out.area_each = gain * covers * model.area() * cells / sight.samples;
 }
 
-// Linear light of each code, 32767 = 1.
-const std::array<std::int16_t, 256> linear_of_code = [] {
-    std::array<std::int16_t, 256> table;
-    for (int code = 0; code < 256; ++code) {
-        const float share = static_cast<float>(code) / 255.0f;
-        table[code] = fixed(share * share);
-    }
-    return table;
-}();
-
 void color(const Sight& sight, SplatPerson& out) {
     for (int channel = 0; channel < 3; ++channel) {
         out.palette[channel] = {};
@@ -242,9 +232,8 @@ PointPeople::PointPeople(std::span<const figures::Figure> figures, const scene::
 
 void PointPeople::prepare(const View& view, double splat_size, std::span<const Person* const> people) {
     cell_ = cell_of(static_cast<float>(splat_size));
-    constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
-    resize_anew(people_, people.size(), most);
-    resize_anew(bounds_, people.size(), most);
+    resize_anew(people_, people.size());
+    resize_anew(bounds_, people.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, people.size(), 256), [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
             ready(view, *people[i], cell_, people_[i]);

@@ -87,14 +87,14 @@ Surroundings Renderer::begin(const View& view) {
     return out;
 }
 
-bool Renderer::is_drawn_already(const Frame& frame) const {
+bool Renderer::is_drawn_already(const Frame& frame, std::uint64_t people) const {
     return has_picture_ && frame.splat_size == drawn_splat_size_ && frame.far_blocks == drawn_far_ &&
-           frame.far_people.crowd == drawn_crowd_ && digest_ == drawn_digest_;
+           frame.far_people.crowd == drawn_crowd_ && people == drawn_people_;
 }
 
 void Renderer::draw(const Frame& frame) {
-    digest_ = digest_of(frame.people);
-    if (is_drawn_already(frame)) return;
+    const std::uint64_t people = digest_of(frame.people);
+    if (is_drawn_already(frame, people)) return;
     part_people(frame);
     triangles_.prepare(frame.view, near_people_);
     points_.prepare(frame.view, frame.splat_size, point_people_);
@@ -102,7 +102,7 @@ void Renderer::draw(const Frame& frame) {
     find_contact_shades(frame, figures::natively(), shades_);
     fill_lists();
     for_each_tile(grid_.count(), [&](std::size_t tile) { draw_tile(tile); });
-    drawn_digest_ = digest_;
+    drawn_people_ = people;
     drawn_far_ = frame.far_blocks;
     drawn_crowd_ = frame.far_people.crowd;
     drawn_splat_size_ = frame.splat_size;

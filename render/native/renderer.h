@@ -56,7 +56,7 @@ private:
         ContactTile contact;
     };
 
-    bool is_drawn_already(const Frame& frame) const;
+    bool is_drawn_already(const Frame& frame, std::uint64_t people) const;
     void part_people(const Frame& frame);
     void prepare_far(const Frame& frame);
     void fill_lists();
@@ -83,8 +83,7 @@ private:
     bool has_backdrop_ = false;  // of view_
     Occlusion occlusion_;
 
-    // Of the last frame, and of the one that is drawn.
-    std::uint64_t drawn_digest_ = 0, digest_ = 0;
+    std::uint64_t drawn_people_ = 0;  // the last frame's: a digest of them
     double drawn_splat_size_ = 0;
     std::vector<FarBlock> drawn_far_;
     const scene::Crowd* drawn_crowd_ = nullptr;

@@ -8,6 +8,7 @@
 #include "pointsample/prefix_ladder.h"
 #include "pointsample/prefix_look.h"
 #include "render/native/facets.h"
+#include "render/native/linear_codes.h"
 #include "render/native/self_occlusion.h"
 
 namespace render::native {
@@ -16,12 +17,6 @@ namespace {
 
 std::int16_t q15(float value) {
     return static_cast<std::int16_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 32767.0f));
-}
-
-// The shaders' linear.
-std::int16_t linear(std::uint8_t srgb) {
-    const float share = static_cast<float>(srgb) / 255.0f;
-    return q15(share * share);
 }
 
 // Two bytes that find a slot's 16-bit entry in a table of bytes.
@@ -136,7 +131,7 @@ void SplatModel::pack_looks(const figures::Figure& figure) {
         const int point = std::min(i, points_ - 1);
         for (int channel = 0; channel < 3; ++channel)
             colors_[((i / chunk_points) * 3 + channel) * chunk_points + i % chunk_points] =
-                linear(model.colors[point][channel]);
+                linear_of_code[model.colors[point][channel]];
         slots_[i] = table_index(model.slots[point]);
     }
     mean_colors_.resize(std::size_t{3} * chunk_points * (longest_mean_prefix + 1));
@@ -147,7 +142,7 @@ void SplatModel::pack_looks(const figures::Figure& figure) {
         int point = 0;
         for (const pointsample::PrefixLook& look : pointsample::prefix_looks(model, prefix)) {
             for (int channel = 0; channel < 3; ++channel)
-                colors[channel * chunk_points + point] = linear(look.color[channel]);
+                colors[channel * chunk_points + point] = linear_of_code[look.color[channel]];
             float untinted = 1.0f;
             for (int slot = 1; slot <= model::slot_count; ++slot) {
                 const float share = static_cast<float>(look.shares[slot - 1]) / 255.0f;

@@ -46,8 +46,7 @@ std::vector<std::int64_t> crowds_by_use(const Front& front) {
     std::vector<std::int64_t> crowds;
     for (const bool marked : {true, false})
         for (const Row& row : front.rows)
-            if (marked == (std::ranges::find(marked_crowds, row.people) != std::end(marked_crowds)) &&
-                std::ranges::find(crowds, row.people) == crowds.end())
+            if (marked == is_marked(row.people) && std::ranges::find(crowds, row.people) == crowds.end())
                 crowds.push_back(row.people);
     return crowds;
 }

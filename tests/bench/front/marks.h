@@ -1,6 +1,9 @@
 // What a law chooses by itself: a closed loop of real frames until it has settled.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -14,6 +17,9 @@ namespace bench::front {
 // [ms] In this order: a law goes from one to the next, and passes the dear frames that some laws begin with once.
 inline constexpr double mark_targets[] = {100, 33, 16.6, 8, 4};
 inline constexpr std::int64_t marked_crowds[] = {20'000, 1'000'000};
+inline bool is_marked(std::int64_t people) {
+    return std::ranges::find(marked_crowds, people) != std::end(marked_crowds);
+}
 
 // When a law is taken to have settled.
 struct Patience {

@@ -44,8 +44,8 @@ void add_settings(std::vector<Step>& steps, const Part& part, std::int64_t peopl
 }
 
 void add_marks(std::vector<Step>& steps, const Part& part, std::int64_t people, const NamedView& view) {
-    const bool wanted = part.with_marks && is_in(part.families, std::string(marks_family)) && view.is_preset &&
-                        std::ranges::find(marked_crowds, people) != std::end(marked_crowds);
+    const bool wanted =
+        part.with_marks && is_in(part.families, std::string(marks_family)) && view.is_preset && is_marked(people);
     if (!wanted) return;
     for (const std::string_view law : sfsm::law_names())
         for (const double target : mark_targets)
