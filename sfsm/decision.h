@@ -21,6 +21,9 @@ struct Decision {
     // D [m], view depth; > 0. Means nothing in state 0.
     double motion_distance = std::numeric_limits<double>::infinity();
     double splat_size = 0;  // S [px] in [0, max_splat_size]; 0 outside state 2
+    // [px / piece] > 0: each class of people is drawn and moved so that the next piece of work (WorkPrior) would save
+    // less error than this; state, D and S then say what that comes to. 0: D and S decide, for everybody alike.
+    double rate = 0;
 
     bool operator==(const Decision&) const = default;
 };
