@@ -33,6 +33,9 @@ Choices::Choices(const Figure& figure, const Way& way) {
     assert(!all_.empty());
     for (std::uint32_t i = 0; i < all_.size(); ++i) by_cost_.push_back({all_[i].level.reach, i});
     std::ranges::sort(by_cost_, {}, &Reach::reach);  // cost rises along it too: else one replaced another
+    std::ranges::copy_if(by_cost_, std::back_inserter(samples_), [&](const Reach& reach) {
+        return !way.representations[all_[reach.choice].representation].is_mesh;
+    });
     assert(of_blocks.size() <= 1);
     for (const Choice& offer : of_blocks) {
         block_ = {offer.level.reach, static_cast<std::uint32_t>(all_.size())};

@@ -33,6 +33,17 @@ public:
     std::uint32_t in_block_at(float demand) const { return demand <= block_.reach ? block_.choice : at(demand); }
     // The greatest demand of which a block is drawn as one; < 0: it never is.
     float block_reach() const { return block_.reach; }
+    // Of those that aren't meshes the cheapest for so many samples of somebody alone, or the finest; none: exact().
+    std::uint32_t samples_at(float demand) const {
+        if (samples_.empty()) return exact();
+        std::size_t i = 0;
+        while (i + 1 < samples_.size() && !(demand <= samples_[i].reach)) ++i;
+        return samples_[i].choice;
+    }
+    // The most samples that one of them has; 0 without any.
+    float most_samples() const { return samples_.empty() ? 0 : samples_.back().reach; }
+    // What a block is drawn as, if it can be; else exact().
+    std::uint32_t of_block() const { return block_.reach >= 0 ? block_.choice : exact(); }
     // What serves any demand: the artist's own shape.
     std::uint32_t exact() const { return by_cost_.back().choice; }
 
@@ -44,6 +55,7 @@ private:
     std::vector<Choice> all_;
     Reach block_;
     std::vector<Reach> by_cost_;  // cost and reach rise along it
+    std::vector<Reach> samples_;  // of those that aren't meshes: cost and reach rise along it
 };
 
 }  // namespace figures

@@ -22,6 +22,10 @@ inline constexpr Representation points{"points", false, point_levels, point_outl
 // many points a person is drawn so; the last is all of the model.
 std::vector<Level> native_point_levels(const Figure& figure);
 
+// [px] Natively points are added up in cells of this share of S, at least a pixel: four fifths of a point or more a
+// cell, half of which face the eye. Smaller cells have holes, and larger ones blur.
+inline constexpr double cell_share = 0.8408964;
+
 // An area-sampled picture gains nothing from points finer than half a pixel.
 constexpr double native_point_outline_px(double splat_size, double silhouette) {
     constexpr double finest = 0.5;  // [px]

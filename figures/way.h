@@ -5,9 +5,19 @@
 #include <cstddef>
 #include <span>
 
+#include "figures/expected_error.h"
 #include "figures/representation.h"
 
 namespace figures {
+
+// What is measured to be paid for people, in times of one of their triangles. Error is exchanged for work at these.
+struct Effort {
+    double triangle, point;
+    double single;      // somebody who is drawn alone
+    double splat;       // somebody who is drawn with their block
+    double update;      // of one who moves
+    double resampling;  // of a cell of the crowd that is larger than a pixel
+};
 
 struct Way {
     sfsm::Drawing drawing;
@@ -16,6 +26,9 @@ struct Way {
     float nearest;                                    // who isn't this many of their radii away is drawn exactly
     float overhang;                                   // of splats beyond their person, in square roots of a silhouette
     std::size_t most_points;                          // of a model: more are of no use, whatever its triangles cost
+    ExpectedError error;
+    Effort effort;
+    bool has_cells;  // points are added up in cells, whatever their number; else each is as large as all others
 };
 
 // How many points a model of so many triangles can be drawn by: as many as are believed to cost what those do, at most

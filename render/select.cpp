@@ -8,6 +8,7 @@
 #include <limits>
 #include <span>
 
+#include "figures/points.h"
 #include "render/contact_shade.h"
 #include "render/room.h"
 
@@ -50,8 +51,18 @@ Selector::Selector(const scene::Crowd& crowd, std::span<const scene::CastMember>
     const auto staleness = measure_staleness(crowd_, cast_, figures_);
     const auto spreads = find_spreads();
     std::vector<Forecaster::Kind> priced;
-    for (std::size_t i = 0; i < kinds_.size(); ++i) priced.push_back({kinds_[i].choices, staleness[i], spreads[i]});
+    std::vector<RateForecaster::Kind> exchanged;
+    for (std::size_t i = 0; i < kinds_.size(); ++i) {
+        kinds_[i].staleness = staleness[i];
+        priced.push_back({kinds_[i].choices, staleness[i], spreads[i]});
+        const motion::PoseTable& poses = *figures_[i].poses;
+        exchanged.push_back(
+            {{&kinds_[i].choices, static_cast<double>(poses.area), static_cast<double>(poses.rest_height)},
+             staleness[i]});
+    }
     forecaster_ = Forecaster(std::move(priced), *options_.way, options_.density);
+    rates_ = RateForecaster(std::move(exchanged), *options_.way);
+    paces_ = Paces(kinds_.size());
 }
 
 void Selector::know_blocks() {
@@ -69,6 +80,8 @@ void Selector::know_blocks() {
             known.reach = std::max(known.reach, scale * kind.radius);
             known.tallest = std::max(known.tallest, crowd_.height[person]);
             known.stays &= !scene::follows_path(role);
+            known.crowding.add(crowd_.position[person] + scale * kind.center, crowd_.height[person]);
+            known.silhouette += 0.25f * figures_[character].poses->area * scale * scale;
             auto group = std::find_if(groups_.begin() + known.first_group, groups_.end(),
                                       [&](const Group& one) { return one.character == character && one.role == role; });
             if (group == groups_.end()) group = groups_.insert(group, {static_cast<std::uint32_t>(character), role});
@@ -76,6 +89,7 @@ void Selector::know_blocks() {
             group->middle += crowd_.position[person] + scale * kind.center;
         }
         known.groups = static_cast<std::uint32_t>(groups_.size()) - known.first_group;
+        known.silhouette /= static_cast<float>(block.count);
         for (Group& group : std::span(groups_).subspan(known.first_group))
             group.middle /= static_cast<float>(group.people);
     }
@@ -217,19 +231,55 @@ void Selector::find_range() {
 }
 
 void Selector::forecast() {
+    find_shares();
     forecaster_.begin(survey_.range);
+    rates_.begin(static_cast<double>(view_.width) * view_.height, survey_.range);
     for (const Seen& seen : seen_) {
         if (seen.small) {
             forecast_as_one(seen);
             continue;
         }
+        RateForecaster::Group one{.people = 1, .share = seen.share, .place = seen.place};
         for_each_visible(seen, [&](std::size_t person, float depth) {
-            forecaster_.add(crowd_.character[person], crowd_.role[person], depth, demand_at_unit_splat(person, depth),
-                            view_.pixels_per_metre(depth));
+            const float demand = demand_at_unit_splat(person, depth);
+            one.kind = crowd_.character[person];
+            one.role = crowd_.role[person];
+            one.depth = depth;
+            one.pixels_per_metre = view_.pixels_per_metre(depth);
+            one.surface = surface_of(person, depth);
+            one.on_screen = on_screen(seen, person, one.surface);
+            forecaster_.add(one.kind, one.role, depth, demand, one.pixels_per_metre);
+            rates_.add(one);
         });
     }
     survey_.forecast = forecaster_.finish(options_.theta);
     survey_.forecast.frame += around_.work;
+    survey_.forecast.rates = rates_.finish();
+    survey_.background_error = around_.background_error * (1 - rates_.covered());
+}
+
+void Selector::find_shares() {
+    for_each_seen([&](Seen& seen) {
+        const Block& known = blocks_[seen.block];
+        const glm::vec3 away = relative(crowd_.blocks[seen.block].box.center(), seen.eye);
+        seen.share = known.stays && glm::dot(away, away) > 0 ? known.crowding.visible_share(away, known.silhouette) : 1;
+        seen.place = Exchange::place_of(seen.share);
+    });
+}
+
+// Of somebody large who is partly beside the picture; who is smaller counts as in it.
+float Selector::on_screen(const Seen& seen, std::size_t person, float surface) const {
+    constexpr float large = 4000;  // [px^2]
+    if (!(surface > large)) return 1;
+    const glm::vec3 middle = middle_of(seen, person);
+    const float depth = std::max(view_.depth(middle), near_plane), pixels = view_.pixels_per_metre(depth);
+    const float high = crowd_.height[person] * pixels, wide = 0.4f * high;
+    const auto overlap = [](float at, float side, float picture) {
+        const float low = std::max(at - 0.5f * side, -0.5f * picture), end = std::min(at + 0.5f * side, 0.5f * picture);
+        return std::max(end - low, 0.0f) / side;
+    };
+    return overlap(pixels * glm::dot(view_.right, middle), wide, static_cast<float>(view_.width)) *
+           overlap(pixels * glm::dot(view_.up, middle), high, static_cast<float>(view_.height));
 }
 
 // Those of its people who show are shared out over its groups as all of them are.
@@ -240,8 +290,17 @@ void Selector::forecast_as_one(const Seen& seen) {
         const std::uint64_t until = before + group.people;
         const std::uint64_t people = until * seen.visible / all - before * seen.visible / all;
         const float depth = depth_of(seen, group);
-        forecaster_.add_block(group.character, group.role, static_cast<std::int64_t>(people), depth,
-                              mean_demand_of(seen, group), view_.pixels_per_metre(depth));
+        const float demand = mean_demand_of(seen, group), pixels = view_.pixels_per_metre(depth);
+        forecaster_.add_block(group.character, group.role, static_cast<std::int64_t>(people), depth, demand, pixels);
+        rates_.add({.kind = group.character,
+                    .role = group.role,
+                    .people = static_cast<std::int64_t>(people),
+                    .is_block = true,
+                    .depth = depth,
+                    .pixels_per_metre = pixels,
+                    .surface = demand / options_.density,
+                    .share = seen.share,
+                    .place = seen.place});
         before = until;
     }
 }
@@ -251,25 +310,38 @@ std::span<const Selector::Group> Selector::groups_of(const Seen& seen) const {
 }
 
 const Frame& Selector::select(const sfsm::Decision& decision, std::int64_t last_tick) {
+    if (decision.rate > 0) {
+        rates_.exchange().find_terms(decision.rate, rates_.cell_of(decision.rate), terms_);
+        rates_.find_paces(decision.rate, paces_);
+    }
     find_far_blocks(decision);
     make_room();
-    for_each_seen([&](Seen& seen) {
-        seen.is_far ? choose_as_one(seen, decision, last_tick) : choose(seen, decision, last_tick);
-    });
-    sum_up();
+    const Rules rules{decision, last_tick};
+    for_each_seen([&](Seen& seen) { seen.is_far ? choose_as_one(seen, rules) : choose(seen, rules); });
     frame_.far_people = {&crowd_, turns_.data(), far_keys_.data()};
     frame_.view = view_;
-    frame_.splat_size = decision.splat_size;
+    frame_.splat_size = decision.rate > 0 ? splat_size_of(terms_) : decision.splat_size;
+    sum_up();
     return frame_;
+}
+
+// S that makes cells as large as the terms have them or, where points have a size, as large as their spacing asks for.
+double Selector::splat_size_of(const Exchange::Terms& terms) const {
+    const double pixels = options_.way->has_cells ? static_cast<double>(terms.cell) / figures::cell_share
+                                                  : std::sqrt(static_cast<double>(options_.density)) * terms.spacing;
+    return std::min(pixels, sfsm::max_splat_size);
 }
 
 // Where one splat serves people of mean size of each kind.
 void Selector::find_far_blocks(const sfsm::Decision& decision) {
     for (Seen& seen : seen_)
-        seen.is_far =
-            seen.small && decision.splat_size > 0 && std::ranges::all_of(groups_of(seen), [&](const Group& group) {
-                return forecaster_.serves_block(group.character, mean_demand_of(seen, group), decision.splat_size);
-            });
+        seen.is_far = seen.small && (decision.rate > 0 || decision.splat_size > 0) &&
+                      std::ranges::all_of(groups_of(seen), [&](const Group& group) {
+                          const float demand = mean_demand_of(seen, group);
+                          if (!(decision.rate > 0))
+                              return forecaster_.serves_block(group.character, demand, decision.splat_size);
+                          return demand / options_.density <= terms_.sizes(group.character, seen.place).splat_to;
+                      });
 }
 
 // Each block's people have a place in the frame that is known beforehand: any thread may write them.
@@ -283,20 +355,20 @@ void Selector::make_room() {
     frame_.far_blocks.resize(far_blocks);
 }
 
-void Selector::choose(Seen& seen, const sfsm::Decision& decision, std::int64_t last_tick) {
+void Selector::choose(Seen& seen, const Rules& rules) {
     seen.work = {};
+    seen.error = 0;
     seen.slowed = seen.simplified = false;
     Person* drawn = frame_.people.data() + seen.first_drawn;
-    for_each_visible(
-        seen, [&](std::size_t person, float depth) { *drawn++ = choose(person, depth, decision, last_tick, seen); });
+    for_each_visible(seen, [&](std::size_t person, float depth) { *drawn++ = choose(person, depth, rules, seen); });
 }
 
 // All of them move in the same frames, and their keys, which are a good part of a second apart, are found every few
 // ticks.
-void Selector::choose_as_one(Seen& seen, const sfsm::Decision& decision, std::int64_t last_tick) {
+void Selector::choose_as_one(Seen& seen, const Rules& rules) {
     const scene::CrowdBlock& block = crowd_.blocks[seen.block];
     const float depth = std::max(view_.depth(relative(block.box.center(), seen.eye)), near_plane);
-    const auto [period, due] = moves_of(block.first, depth, decision);
+    const auto [period, due] = moves_of(block.first, depth, rules);
     constexpr int ticks_a_key = 8;
     const std::int64_t key_tick = motion::due_tick(due, ticks_a_key, crowd_.hash[block.first]);
     std::int64_t& known = blocks_[seen.block].key_tick;
@@ -308,7 +380,7 @@ void Selector::choose_as_one(Seen& seen, const sfsm::Decision& decision, std::in
         known = key_tick;
     }
     seen.work = {};
-    seen.work[sfsm::WorkKind::motion_update] = due > last_tick ? seen.visible : 0;
+    seen.work[sfsm::WorkKind::motion_update] = due > rules.last_tick ? seen.visible : 0;
     seen.slowed = period > 1;
     seen.simplified = true;
     frame_.far_blocks[seen.first_drawn] = {seen.block, depth, key_tick};
@@ -362,9 +434,17 @@ float Selector::mean_demand_of(const Seen& seen, const Group& group) const {
            pixels;
 }
 
-Selector::Moves Selector::moves_of(std::size_t person, float depth, const sfsm::Decision& decision) const {
+float Selector::surface_of(std::size_t person, float depth) const {
+    const float pixels = scale_of(person) * view_.pixels_per_metre(depth);
+    return figures_[crowd_.character[person]].poses->area * pixels * pixels;
+}
+
+Selector::Moves Selector::moves_of(std::size_t person, float depth, const Rules& rules) const {
+    const sfsm::Decision& decision = rules.decision;
     int period = 1;
-    if (decision.state != sfsm::State::original)
+    if (rules.by_rate())
+        period = paces_.period(crowd_.character[person], crowd_.role[person], view_.pixels_per_metre(depth));
+    else if (decision.state != sfsm::State::original)
         period = motion::update_period(depth, static_cast<float>(decision.motion_distance), options_.theta);
     return {period, motion::due_tick(tick_, period, crowd_.hash[person])};
 }
@@ -376,24 +456,35 @@ std::uint32_t Selector::pose_of(std::size_t person, std::int64_t tick) {
     return static_cast<std::uint32_t>(poses.pose_at(action.clip, action.clip_tick));
 }
 
+// Which choice, and how many samples are asked of it.
+std::pair<std::uint32_t, float> Selector::shape_of(std::size_t person, float demand, const Rules& rules,
+                                                   const Seen& seen) const {
+    const figures::Choices& choices = kinds_[crowd_.character[person]].choices;
+    if (rules.by_rate()) {
+        const Exchange::Terms::Sizes sizes = terms_.sizes(crowd_.character[person], seen.place);
+        const float surface = demand / options_.density;
+        const float samples = surface / (sizes.spacing * sizes.spacing);
+        return {surface < sizes.mesh_from ? choices.samples_at(samples) : choices.exact(), samples};
+    }
+    const auto splat_area = static_cast<float>(rules.decision.splat_size * rules.decision.splat_size);
+    if (!(splat_area > 0)) return {choices.exact(), 0.0f};
+    return {choices.at(demand / splat_area), demand / splat_area};
+}
+
 // Where the person is now decides whether they are seen and how often they move; both change little in a period.
-Person Selector::choose(std::size_t person, float depth, const sfsm::Decision& decision, std::int64_t last_tick,
-                        Seen& seen) {
+Person Selector::choose(std::size_t person, float depth, const Rules& rules, Seen& seen) {
     const std::size_t character = crowd_.character[person];
     const scene::CastMember& member = cast_[character];
     const motion::PoseTable& poses = *figures_[character].poses;
-    const auto [period, due] = moves_of(person, depth, decision);
-    const auto splat_area = static_cast<float>(decision.splat_size * decision.splat_size);
-    const figures::Choices& choices = kinds_[character].choices;
-    const float demand = splat_area > 0 ? demand_at_unit_splat(person, depth) / splat_area : 0.0f;
-    const std::uint32_t choice = splat_area > 0 ? choices.at(demand) : choices.exact();
-    const auto& [representation, level] = choices.all()[choice];
-    const figures::Part part = figures::part_of(level, demand);
+    const auto [period, due] = moves_of(person, depth, rules);
+    const auto [choice, samples] = shape_of(person, demand_at_unit_splat(person, depth), rules, seen);
+    const auto& [representation, level] = kinds_[character].choices.all()[choice];
+    const figures::Part part = figures::part_of(level, samples);
     const std::uint32_t pose = pose_of(person, due);
     const Spot spot = spot_of(seen, person, due);
     const bool stands = crowd_.role[person] != scene::Role::spectator || !member.sits;
     seen.work += part.work;
-    seen.work[sfsm::WorkKind::motion_update] += due > last_tick;
+    seen.work[sfsm::WorkKind::motion_update] += due > rules.last_tick;
     seen.slowed |= period > 1;
     seen.simplified |= !options_.way->representations[representation].is_mesh;
     return {{spot.position, scale_of(person), spot.turn, crowd_.palette[person]},

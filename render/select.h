@@ -7,14 +7,17 @@
 #include <limits>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "figures/choices.h"
 #include "figures/figure.h"
 #include "figures/splats.h"
 #include "motion/schedule.h"
+#include "render/crowding.h"
 #include "render/forecaster.h"
 #include "render/frame.h"
+#include "render/rate_forecaster.h"
 #include "render/surroundings.h"
 #include "scene/crowd.h"
 #include "scene/remembered_acts.h"
@@ -34,9 +37,10 @@ struct SelectOptions {
 
 // What a view shows, before anything is decided about it.
 struct Survey {
-    float range = 1;          // L [m]: the view depth of the farthest visible person, at least 1
-    sfsm::Forecast forecast;  // valid until the next survey
-    std::int64_t hidden = 0;  // people behind the structure: they aren't drawn
+    float range = 1;              // L [m]: the view depth of the farthest visible person, at least 1
+    sfsm::Forecast forecast;      // valid until the next survey
+    double background_error = 0;  // expected mean FLIP of the frame that is due to what shows beside people
+    std::int64_t hidden = 0;      // people behind the structure: they aren't drawn
 };
 
 // Blocks that are far are surveyed as one: they are seen or hidden as a whole, and priced by how many people of each
@@ -67,9 +71,11 @@ private:
         bool whole() const { return small && inside; }  // all of its people show
         std::uint32_t visible = 0;                      // people
         std::uint32_t hidden = 0;                       // by the structure
+        float share = 1, place = 0;     // of each of its people that others leave to be seen, and Exchange::place_of it
         std::uint32_t first_drawn = 0;  // into Frame::people; of one that is far, into Frame::far_blocks
         // Of its visible people together, as they were chosen last.
         sfsm::Work work;
+        double error = 0;  // [px] expected: FLIP, summed over pixels
         bool slowed = false, simplified = false;
     };
     // What is known of a character beforehand.
@@ -82,6 +88,7 @@ private:
         float radius = 0;
         float overhang = 0;     // of their splats [model units]
         float mean_square = 1;  // of people's scales [m^2 / model unit^2]
+        std::array<Staleness, scene::role_count> staleness{};
     };
     // People of a block who are alike: all that is asked of one that is surveyed as a whole.
     struct Group {
@@ -97,6 +104,8 @@ private:
         std::uint32_t first_group = 0, groups = 0;
         float reach = 0, tallest = 0;  // [m] the largest radius, and height, of its people
         bool stays = true;             // nobody in it follows a path
+        Crowding crowding;
+        float silhouette = 0;  // [m^2] mean of its people's
         // In the view that is surveyed:
         Look look{};
         bool small = false;
@@ -120,20 +129,32 @@ private:
     std::span<const Group> groups_of(const Seen& seen) const;
     float depth_of(const Seen& seen, const Group& group) const;        // [m] of its middle, at least the near plane
     float mean_demand_of(const Seen& seen, const Group& group) const;  // at S = 1 px
+    void find_shares();
+    float on_screen(const Seen& seen, std::size_t person, float surface) const;
     // How often somebody so far away moves [ticks], and when they did last.
     struct Moves {
         int period;
         std::int64_t due;
     };
-    Moves moves_of(std::size_t person, float depth, const sfsm::Decision& decision) const;
+    // What is decided of a frame.
+    struct Rules {
+        const sfsm::Decision& decision;
+        std::int64_t last_tick;
+        bool by_rate() const { return decision.rate > 0; }
+    };
+    Moves moves_of(std::size_t person, float depth, const Rules& rules) const;
+    std::pair<std::uint32_t, float> shape_of(std::size_t person, float demand, const Rules& rules,
+                                             const Seen& seen) const;
     std::uint32_t pose_of(std::size_t person, std::int64_t tick);
     void find_far_blocks(const sfsm::Decision& decision);
+    double splat_size_of(const Exchange::Terms& terms) const;
     void make_room();
-    void choose(Seen& seen, const sfsm::Decision& decision, std::int64_t last_tick);
-    void choose_as_one(Seen& seen, const sfsm::Decision& decision, std::int64_t last_tick);
-    Person choose(std::size_t person, float depth, const sfsm::Decision& decision, std::int64_t last_tick, Seen& seen);
+    void choose(Seen& seen, const Rules& rules);
+    void choose_as_one(Seen& seen, const Rules& rules);
+    Person choose(std::size_t person, float depth, const Rules& rules, Seen& seen);
     float scale_of(std::size_t person) const;  // [m / model unit]
     float demand_at_unit_splat(std::size_t person, float depth) const;
+    float surface_of(std::size_t person, float depth) const;  // [px^2]
     static Turn turn_of(float yaw);
     Spot spot_of(const Seen& seen, std::size_t person, std::int64_t tick) const;
     glm::vec3 middle_of(const Seen& seen, std::size_t person) const;  // [m] camera-relative, of their ball
@@ -163,6 +184,9 @@ private:
     // isn't touched.
     std::unique_ptr<float[]> depth_;
     Forecaster forecaster_;
+    RateForecaster rates_;
+    Exchange::Terms terms_;  // of the decided rate, as the paces
+    Paces paces_;
     Survey survey_;
 
     std::vector<std::uint8_t> far_keys_;  // Frame::far_people's

@@ -9,6 +9,7 @@ namespace render {
 struct Surroundings {
     sfsm::Work work;                       // of all that is drawn whoever is: structure and pixels
     const Occlusion* occlusion = nullptr;  // null: not known
+    double background_error = 0;           // expected mean FLIP of the picture if nobody is in it
 };
 
 }  // namespace render

@@ -35,11 +35,16 @@ struct BackdropPicture {
     Plane<std::uint32_t> color;  // red, green, blue in bytes 0, 1, 2: the square root of linear light; byte 3 is 255
     Plane<float> depth;          // near_plane / view depth: 0 is infinitely far, larger is nearer
     Plane<float> farthest;       // the least depth of each block of pixels: what is farther is hidden in all of it
+    Plane<float> error;          // expected mean FLIP of each block of which is_judged()
 };
 
 // Blocks of block_side x block_side pixels, from the picture's top left corner; what sticks out of the picture counts
 // not.
 inline constexpr int block_side = 8;
+// Some of the blocks, evenly spread, stand for all where their error is expected.
+constexpr bool is_judged(int column, int row) {
+    return (column + 3 * row) % 8 == 0;
+}
 constexpr int blocks_across(int pixels) {
     return (pixels + block_side - 1) / block_side;
 }

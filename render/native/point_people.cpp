@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "figures/points.h"
 #include "render/contact_shade.h"
 #include "render/native/cell_grid.h"
 #include "render/native/linear_codes.h"
@@ -213,11 +214,9 @@ void find_spot(const Sight& sight, SplatPerson& out) {
     for (int i = 0; i < 2; ++i) out.feet[i] = static_cast<std::int32_t>(std::floor(at[i] * steps_a_cell));
 }
 
-// [px] The side of cells for S: four fifths of a point or more a cell, half of which face the eye. Smaller cells have
-// holes, and larger ones blur.
+// [px] The side of cells for S.
 float cell_of(float splat_size) {
-    constexpr float share = 0.8408964f;  // of S
-    return std::max(1.0f, share * splat_size);
+    return std::max(1.0f, static_cast<float>(figures::cell_share) * splat_size);
 }
 
 }  // namespace

@@ -45,6 +45,18 @@ std::uint64_t digest_of(std::span<const Person> people) {
     return digest;
 }
 
+double expected_error(const BackdropPicture& picture) {
+    double sum = 0;
+    int judged = 0;
+    for (int row = 0; row < blocks_across(picture.height); ++row)
+        for (int column = 0; column < blocks_across(picture.width); ++column) {
+            if (!is_judged(column, row)) continue;
+            sum += static_cast<double>(picture.error.row(row)[column]);
+            ++judged;
+        }
+    return judged > 0 ? sum / judged : 0;
+}
+
 }  // namespace
 
 Renderer::Renderer(const scene::StaticMesh& structure, const scene::Ground& ground, const scene::Light& light,
@@ -66,6 +78,7 @@ void Renderer::resize(int width, int height) {
     behind_.color = Plane<std::uint32_t>(width, height);
     behind_.depth = Plane<float>(width, height);
     behind_.farthest = Plane<float>(blocks_across(width), blocks_across(height));
+    behind_.error = Plane<float>(blocks_across(width), blocks_across(height));
     picture_ = Plane<std::uint32_t>(width, height);
     has_backdrop_ = has_picture_ = false;
 }
@@ -78,9 +91,11 @@ Surroundings Renderer::begin(const View& view) {
         for_each_tile(grid_.count(), [&](std::size_t tile) { backdrop_.paint(grid_.tile(tile), behind_); });
         out.work[sfsm::WorkKind::structure_triangle] = backdrop_.triangles();
         out.work[sfsm::WorkKind::pixel] = std::int64_t{width_} * height_;
+        background_error_ = expected_error(behind_);
         has_backdrop_ = true;
         has_picture_ = false;
     }
+    out.background_error = background_error_;
     static_assert(Occlusion::block_side == block_side);
     occlusion_ = {behind_.farthest.row(0), behind_.farthest.stride(), blocks_across(width_), blocks_across(height_)};
     out.occlusion = &occlusion_;

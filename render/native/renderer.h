@@ -81,6 +81,7 @@ private:
     Plane<std::uint32_t> picture_;
     View view_;
     bool has_backdrop_ = false;  // of view_
+    double background_error_ = 0;
     Occlusion occlusion_;
 
     std::uint64_t drawn_people_ = 0;  // the last frame's: a digest of them
