@@ -2,11 +2,13 @@
 // the aim. It answers a camera cut, a new target or a crowd pouring in within the frame they happen.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 
 #include "sfsm/aim.h"
 #include "sfsm/forecast.h"
-#include "sfsm/least_loss.h"
+#include "sfsm/plans.h"
 #include "sfsm/work_model.h"
 
 namespace sfsm {
@@ -19,28 +21,30 @@ public:
     // A frame with a usable time; ignored unless its work was counted.
     void observe(const FrameSample& sample);
 
-    // Puts decision number `frame`, counted from 0, into the aim's status; its target and range are usable, and both
-    // lists of the forecast have steps.
+    // Puts decision number `frame`, counted from 0, into the aim's status; its target and range are usable, and the
+    // forecast's lists motion and shapes have steps. By rate where it has rates, else by D and S.
     void decide(const Forecast& forecast, std::int64_t frame);
 
 private:
     // A frame drawn to learn from: while the target is met and the price of motion or of points is unknown, or while it
     // is out of reach and that of finer detail is.
     struct Probe {
-        int motion = 0, points = 0, finer = 0;  // drawn so far
+        std::array<int, lessons> of{};  // of each lesson, drawn so far
+        int finer = 0;
         Decision decision;
         int age = 0;  // decisions since; 0: none is on its way
     };
 
-    void choose(const Forecast& forecast);
-    Plan first_guess(const Forecast& forecast) const;
-    Plan best_plan(const Forecast& forecast, double least_ms, double budget_ms) const;
-    Plan surely_fitting(const Forecast& forecast, const Plan& best, double least_ms, double aim_ms) const;
-    void probe(const Forecast& forecast);
+    void decide_among(const Plans& plans, std::int64_t frame);
+    void choose(const Plans& plans);
+    Plan first_guess(const Plans& plans) const;
+    Plan best_plan(const Plans& plans, double least_ms, double budget_ms) const;
+    Plan surely_fitting(const Plans& plans, const Plan& best, double least_ms, double aim_ms) const;
+    void probe(const Plans& plans);
     bool is_time_to_probe();
+    std::optional<Plan> next_probe(const Plans& plans, const Plan& now);
+    std::optional<Plan> finer_probe(const Plans& plans, const Plan& now, double least_ms);
     bool is_doubtful(const Plan& plan) const;
-    Decision decision_of(const Plan& plan) const;
-    Plan plan_of(const Forecast& forecast, const Decision& decision) const;
 
     Aim& aim_;
     Drawing drawing_;

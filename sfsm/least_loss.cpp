@@ -15,11 +15,6 @@ double step_ms(const Step& step, const Prices& prices) {
     return ms;
 }
 
-// Straight in logarithms, or straight where there are none.
-double power_between(double a, double b, double share) {
-    return a > 0 && b > 0 ? a * std::pow(b / a, share) : std::lerp(a, b, share);
-}
-
 double distance_of(const Step& step, double range) {
     return std::min(range, step.setting);
 }
@@ -36,7 +31,7 @@ void take_motion(Plan& plan, const Forecast& forecast, double range, const Place
     plan.distance = std::lerp(distance_of(a, range), distance_of(b, range), place.share);
     for (const WorkKind kind : work_on<WorkAxis::motion>)
         plan.counts[index_of(kind)] = std::lerp(counted(a.work[kind]), counted(b.work[kind]), place.share);
-    plan.loss_px += std::lerp(a.loss_px, b.loss_px, place.share);
+    plan.loss += std::lerp(a.loss_px, b.loss_px, place.share);
 }
 
 void take_shapes(Plan& plan, const Forecast& forecast, const Place& place) {
@@ -45,7 +40,12 @@ void take_shapes(Plan& plan, const Forecast& forecast, const Place& place) {
     plan.size = power_between(a.setting, b.setting, place.share);
     for (const WorkKind kind : work_on<WorkAxis::shape>)
         plan.counts[index_of(kind)] = power_between(counted(a.work[kind]), counted(b.work[kind]), place.share);
-    plan.loss_px += std::lerp(a.loss_px, b.loss_px, place.share);
+    plan.loss += std::lerp(a.loss_px, b.loss_px, place.share);
+}
+
+State state_of(const Plan& plan, double range) {
+    if (plan.size > 0) return State::points;
+    return plan.distance > 0 && plan.distance < range ? State::slowed : State::original;
 }
 
 Plan plan_of(const Forecast& forecast, double range, const Place& motion, const Place& shapes) {
@@ -53,6 +53,7 @@ Plan plan_of(const Forecast& forecast, double range, const Place& motion, const 
     for (const WorkKind kind : work_on<WorkAxis::frame>) plan.counts[index_of(kind)] = counted(forecast.frame[kind]);
     take_motion(plan, forecast, range, motion);
     take_shapes(plan, forecast, shapes);
+    plan.state = state_of(plan, range);
     return plan;
 }
 
@@ -75,11 +76,6 @@ Place fitting_place(std::span<const Step> steps, double rest, const Cost& cost, 
 double loss_at(std::span<const Step> steps, const Place& place) {
     const double b = steps[place.at].loss_px;
     return place.share < 1 ? std::lerp(steps[place.at - 1].loss_px, b, place.share) : b;
-}
-
-bool is_cheaper(double ms, double other_ms) {
-    constexpr double rounding = 1e-9;
-    return ms < other_ms * (1 - rounding);
 }
 
 // The cheapest place from there on that loses as little: a renderer may gain nothing from its finest steps.
@@ -128,12 +124,6 @@ Plan slower_plan(const Forecast& forecast, double range, const Plan& plan, doubl
     return plan_at(forecast, range, distance_of(step, range), plan.size);
 }
 
-double plan_ms(const Plan& plan, const Prices& prices) {
-    double ms = prices.frame;
-    for (std::size_t i = 0; i < work_kinds; ++i) ms += prices.each[i] * plan.counts[i];
-    return ms;
-}
-
 Plan cheapest_plan(const Forecast& forecast, double range) {
     return plan_of(forecast, range, {forecast.motion.size() - 1, 1}, {forecast.shapes.size() - 1, 1});
 }
@@ -169,10 +159,6 @@ Plan least_loss_plan(const Forecast& forecast, double range, const Prices& price
         consider(cheapest_alike(forecast.motion, fitting, motion_cost), {s, 1});
     }
     return plan_of(forecast, range, best_motion, best_shapes);
-}
-
-double ms_of_detail(const Plan& plan, double ms) {
-    return ms * (1 + plan.loss_px);
 }
 
 Plan worthwhile_plan(const Forecast& forecast, double range, const Prices& prices, double budget_ms) {

@@ -6,7 +6,7 @@
 
 #include "sfsm/cost_model.h"
 #include "sfsm/foresight.h"
-#include "sfsm/least_loss.h"
+#include "sfsm/plan.h"
 #include "sfsm/prices.h"
 #include "sfsm/refresh.h"
 

@@ -69,7 +69,7 @@ public:
     }
     Work work(std::int64_t frame, const Decision& decision) const override;
     double detail(std::int64_t frame, const Decision& decision) const override {
-        return 1 / (1 + plan(frame, decision).loss_px);
+        return 1 / (1 + plan(frame, decision).loss);
     }
     Decision optimum(std::int64_t frame, double limit_ms) const override;
 
@@ -103,12 +103,6 @@ Work RecordedPlant::work(std::int64_t frame, const Decision& decision) const {
     Work work;
     for (std::size_t i = 0; i < work_kinds; ++i) work.counts[i] = std::llround(drawn.counts[i]);
     return work;
-}
-
-Decision decision_of(const Plan& plan, double range) {
-    const bool is_all_moving = !(plan.distance < range);
-    if (!(plan.size > 0)) return is_all_moving ? Decision{} : Decision{State::slowed, plan.distance, 0};
-    return {State::points, is_all_moving ? range : plan.distance, plan.size};
 }
 
 // The least a forecast's steps can cost, whatever the prices.

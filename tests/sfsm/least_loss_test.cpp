@@ -67,12 +67,12 @@ TEST(LeastLoss, NoPairOfStepsThatFitsLosesLess) {
         if (budget >= least) {
             ASSERT_LE(plan_ms(plan, steps.prices), budget * (1 + rounding)) << trial;
         } else {
-            ASSERT_EQ(plan.loss_px, cheapest_plan(steps.forecast(), test_range).loss_px) << trial;
+            ASSERT_EQ(plan.loss, cheapest_plan(steps.forecast(), test_range).loss) << trial;
         }
         for (const Step& m : steps.motion) {
             for (const Step& s : steps.shapes) {
                 if (steps.ms(m, s) > budget) continue;
-                ASSERT_LE(plan.loss_px, m.loss_px + s.loss_px + rounding) << trial;
+                ASSERT_LE(plan.loss, m.loss_px + s.loss_px + rounding) << trial;
             }
         }
     }
@@ -84,7 +84,7 @@ TEST(LeastLoss, MoreTimeNeverLosesMore) {
         const Steps steps(random);
         double before = std::numeric_limits<double>::infinity();
         for (double budget = 0; budget < 60; budget += 0.5) {
-            const double loss = least_loss_plan(steps.forecast(), test_range, steps.prices, budget).loss_px;
+            const double loss = least_loss_plan(steps.forecast(), test_range, steps.prices, budget).loss;
             ASSERT_LE(loss, before + rounding) << trial << " at " << budget << " ms";
             before = loss;
         }
@@ -105,7 +105,7 @@ TEST(LeastLoss, OfEqualLossesTheCheapestIsTaken) {
         const Plan plan = least_loss_plan(forecast, test_range, prices, budget);
         EXPECT_EQ(plan.size, 0.5) << budget;
         EXPECT_EQ(plan.distance, 120) << budget;
-        EXPECT_EQ(plan.loss_px, 1) << budget;
+        EXPECT_EQ(plan.loss, 1) << budget;
     }
     EXPECT_EQ(least_loss_plan(forecast, test_range, prices, 1 + 6 + 900.0).size, 0) << "triangles lose less";
 }
@@ -122,7 +122,7 @@ TEST(LeastLoss, NoPairOfStepsLosesAsLittleForLess) {
         const Plan plan = least_loss_plan(steps.forecast(), test_range, steps.prices, uniform(random, 0, 1.1 * most));
         for (const Step& m : steps.motion)
             for (const Step& s : steps.shapes)
-                if (m.loss_px + s.loss_px == plan.loss_px) {
+                if (m.loss_px + s.loss_px == plan.loss) {
                     ASSERT_LE(plan_ms(plan, steps.prices), steps.ms(m, s) * (1 + rounding)) << trial;
                 }
     }
@@ -140,7 +140,7 @@ TEST(LeastLoss, OfPlansThatFitNoPairOfStepsHasCheaperDetailThanTheWorthwhile) {
         const double ms = plan_ms(plan, steps.prices);
         ASSERT_LE(ms, std::max(budget, cheapest) * (1 + rounding)) << trial;
         ASSERT_LE(ms_of_detail(plan, ms), ms_of_detail(finest, plan_ms(finest, steps.prices)) * (1 + rounding));
-        coarser += plan.loss_px > finest.loss_px;
+        coarser += plan.loss > finest.loss;
         for (const Step& m : steps.motion)
             for (const Step& s : steps.shapes) {
                 if (steps.ms(m, s) > budget) continue;
@@ -174,7 +174,7 @@ TEST(LeastLoss, ABudgetBetweenTwoSplatSizesIsMetBetweenThem) {
     const Forecast forecast{Work{100}, motion, shapes};
     const Prices prices{1, {0, 0.01, 0.01, 0}};
     const Plan middle = least_loss_plan(forecast, test_range, prices, 1 + 6);
-    EXPECT_NEAR(middle.loss_px, 3, rounding);
+    EXPECT_NEAR(middle.loss, 3, rounding);
     EXPECT_NEAR(middle.size, std::sqrt(2), rounding) << "logarithms over logarithms";
     EXPECT_NEAR(middle[WorkKind::point], std::sqrt(800 * 400), 1e-6);
     const Plan above = least_loss_plan(forecast, test_range, prices, 1 + 9);
@@ -191,10 +191,10 @@ TEST(LeastLoss, ABudgetBetweenTwoDistancesIsMetBetweenThem) {
     const Plan low = least_loss_plan(forecast, test_range, prices, 2 + 4);
     EXPECT_NEAR(low.distance, 90, rounding);
     EXPECT_NEAR(low[WorkKind::motion_update], 400, rounding);
-    EXPECT_NEAR(low.loss_px, 2, rounding);
+    EXPECT_NEAR(low.loss, 2, rounding);
     const Plan high = least_loss_plan(forecast, test_range, prices, 2 + 8);
     EXPECT_NEAR(high.distance, 160, rounding) << "everybody moving is D = L";
-    EXPECT_NEAR(high.loss_px, 0.5, rounding);
+    EXPECT_NEAR(high.loss, 0.5, rounding);
 }
 
 TEST(PlanAt, IsTheStepAtAStepAndTheEndBeyondTheEnds) {
@@ -209,12 +209,12 @@ TEST(PlanAt, IsTheStepAtAStepAndTheEndBeyondTheEnds) {
                             rounding * 1e4);
                 ASSERT_NEAR(plan[WorkKind::triangle], static_cast<double>(s.work[WorkKind::triangle]), rounding * 1e6);
                 ASSERT_NEAR(plan[WorkKind::point], static_cast<double>(s.work[WorkKind::point]), rounding * 1e6);
-                ASSERT_NEAR(plan.loss_px, m.loss_px + s.loss_px, rounding);
+                ASSERT_NEAR(plan.loss, m.loss_px + s.loss_px, rounding);
             }
         }
         const Plan cheapest = plan_at(forecast, test_range, 0, 1e9);
-        ASSERT_EQ(cheapest.loss_px, cheapest_plan(forecast, test_range).loss_px);
-        ASSERT_EQ(plan_at(forecast, test_range, 1e9, 0).loss_px, 0);
+        ASSERT_EQ(cheapest.loss, cheapest_plan(forecast, test_range).loss);
+        ASSERT_EQ(plan_at(forecast, test_range, 1e9, 0).loss, 0);
     }
 }
 
@@ -225,7 +225,7 @@ TEST(PlanAt, GivesBackEveryPlanOfLeastLoss) {
         const Plan plan = least_loss_plan(steps.forecast(), test_range, steps.prices, uniform(random, 0, 40));
         const Plan again = plan_at(steps.forecast(), test_range, plan.distance, plan.size);
         // Sizes and counts lie on curves through both ends; the way back is as straight as a quarter octave is.
-        ASSERT_NEAR(again.loss_px, plan.loss_px, 0.02 * (1 + plan.loss_px)) << trial;
+        ASSERT_NEAR(again.loss, plan.loss, 0.02 * (1 + plan.loss)) << trial;
         ASSERT_NEAR(again[WorkKind::point], plan[WorkKind::point], 0.01 * plan[WorkKind::point] + 1) << trial;
         ASSERT_NEAR(again[WorkKind::motion_update], plan[WorkKind::motion_update], 1) << trial;
     }

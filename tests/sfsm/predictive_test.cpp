@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "sfsm/detail.h"
+#include "sfsm/least_loss.h"
 #include "tests/sfsm/simulation.h"
 #include "tests/sfsm/steps.h"
 
@@ -463,11 +464,11 @@ TEST(PredictiveForecast, ABetterDecisionOfEqualTimeIsTaken) {
         run(law, ForecastLoop{[&](std::int64_t frame) -> const Scene& { return frame < 300 ? before : after; },
                               constant(target_ms), 310, 0, 0.002});
     const auto loss = [&](const Decision& d, const Scene& scene) {
-        return plan_at(scene.forecast, test_range, std::min(d.motion_distance, test_range), d.splat_size).loss_px;
+        return plan_at(scene.forecast, test_range, std::min(d.motion_distance, test_range), d.splat_size).loss;
     };
     for (const std::size_t frame : {299u, 305u}) {
         const Scene& scene = frame < 300 ? before : after;
-        const double least = least_loss_plan(scene.forecast, test_range, before.prices, target_ms).loss_px;
+        const double least = least_loss_plan(scene.forecast, test_range, before.prices, target_ms).loss;
         EXPECT_LE(loss(rows[frame].decision, scene), 1.25 * least) << frame;
         EXPECT_NEAR(rows[frame].frame_ms, target_ms, 0.05 * target_ms) << frame;
     }
@@ -586,7 +587,7 @@ TEST(PredictiveForecast, OutOfReachDetailThatCostsLittleIsKept) {
         run(law, ForecastLoop{[&](std::int64_t) -> const Scene& { return scene; }, constant(target_ms), 400, 0, 0.01});
     const Decision& decision = rows.back().decision;
     const Plan kept = plan_at(scene.forecast, test_range, decision.motion_distance, decision.splat_size);
-    EXPECT_LE(kept.loss_px, 0.25 * cheapest_plan(scene.forecast, test_range).loss_px);
+    EXPECT_LE(kept.loss, 0.25 * cheapest_plan(scene.forecast, test_range).loss);
     EXPECT_LE(rows.back().frame_ms, 1.1 * scene.prices.frame);
 }
 

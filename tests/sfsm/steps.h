@@ -18,4 +18,11 @@ inline Step shape_step(double size, std::int64_t triangles, std::int64_t points,
     return step;
 }
 
+inline RateStep rate_step(double rate, std::int64_t points, std::int64_t updates, double loss) {
+    RateStep step{rate, State::points, 100, 1, {}, loss};
+    step.work[WorkKind::point] = points;
+    step.work[WorkKind::motion_update] = updates;
+    return step;
+}
+
 }  // namespace sfsm
