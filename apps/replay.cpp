@@ -46,7 +46,8 @@ void verify(const std::string& path) {
     if (difference) {
         throw std::runtime_error(path + ": frame " + std::to_string(difference->frame) + ": found " +
                                  difference->field + " " + sfsm::number_text(difference->recorded) + ", expected " +
-                                 sfsm::number_text(difference->decided) + " of law " + trace.settings.at("law"));
+                                 sfsm::number_text(difference->decided) + " of law " + trace.settings.at("law") +
+                                 ": the trace is damaged, or the law has changed since");
     }
     std::cout << path << ": all " << replayed.size() << " decisions of law " << trace.settings.at("law")
               << " reproduced to the bit\n";

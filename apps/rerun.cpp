@@ -64,6 +64,7 @@ void add_forecast(sfsm::TraceRow& row, const sim::Plant& plant) {
     if (!forecast) return;
     row.motion.assign(forecast->motion.begin(), forecast->motion.end());
     row.shapes.assign(forecast->shapes.begin(), forecast->shapes.end());
+    row.rates.assign(forecast->rates.begin(), forecast->rates.end());
 }
 
 }  // namespace apps

@@ -117,7 +117,10 @@ sim::Contestant law_of(const sfsm::Trace& trace, bool may_look_ahead) {
 
 Rerun recorded_run(const Session& session) {
     Rerun rerun{"recorded", session.recording.trace.rows, {}};
-    for (sfsm::TraceRow& row : rerun.rows) row.motion = row.shapes = {};
+    for (sfsm::TraceRow& row : rerun.rows) {
+        row.motion = row.shapes = {};
+        row.rates = {};
+    }
     return rerun;
 }
 
@@ -156,6 +159,7 @@ void write_trace(std::ostream& out, const Session& session, const Rerun& rerun) 
         } else {
             row.motion = recorded[i].motion;
             row.shapes = recorded[i].shapes;
+            row.rates = recorded[i].rates;
         }
         sfsm::write_trace_row(out, row);
     }

@@ -29,10 +29,12 @@ struct TraceRow {
     std::int64_t hidden = 0;           // people who are not drawn as the structure hides them
     std::optional<State> drawn_state;  // what became of the decision, if the renderer said so: at most its state
 
-    // The forecast given to the controller before this frame; both empty if there was none.
+    // The forecast given to the controller before this frame; all empty if there was none.
     std::vector<Step> motion, shapes;
+    std::vector<RateStep> rates;
     bool has_forecast() const { return !motion.empty() && !shapes.empty(); }
-    Forecast forecast() const { return {only_on<WorkAxis::frame>(work), motion, shapes}; }  // as long as the row lives
+    // As long as the row lives.
+    Forecast forecast() const { return {only_on<WorkAxis::frame>(work), motion, shapes, rates}; }
 };
 
 struct Trace {

@@ -86,6 +86,14 @@ struct SplatSize : Number {
     }
 };
 
+struct Rate : Number {
+    static std::string read(std::string_view field, double& rate) {
+        std::string wrong = Number::read(field, rate);
+        if (wrong.empty() && !(rate >= 0 && std::isfinite(rate))) return is_not(field, "pixels a piece from 0");
+        return wrong;
+    }
+};
+
 // --- Kinds of work.
 
 // Every trace has these; kinds that came later may be missing.
@@ -101,84 +109,150 @@ std::int64_t whole(double count) {
     return static_cast<std::int64_t>(std::min(count, most));
 }
 
-// Steps parted by blanks; a step is its setting, a count for each kind of the axis, and its loss, parted by colons. One
-// with fewer counts is from before the later kinds: those are 0. Most of a trace's bytes are these.
-template <WorkAxis axis>
-struct Steps {
-    static constexpr std::size_t most_numbers = 2 + work_on<axis>.size();
-    static constexpr std::size_t least_numbers = 2 + first_kinds_on<axis>;
+// --- Steps of a forecast: most of a trace's bytes.
 
-    static void write(std::string& line, const std::vector<Step>& steps) {
-        const char* blank = "";
-        for (const Step& step : steps) {
-            append_number(line += blank, step.setting);
-            for (const WorkKind kind : work_on<axis>) append_number(line += ':', step.work[kind]);
-            append_number(line += ':', step.loss_px);
-            blank = " ";
-        }
-    }
+// The numbers of a step, parted by colons.
+class Numbers {
+public:
+    Numbers(const char* at, const char* end) : at_(at), end_(end) {}
 
-    static std::string read(std::string_view field, std::vector<Step>& steps) {
-        if (field.empty()) return {};
-        steps.reserve(1 + static_cast<std::size_t>(std::count(field.begin(), field.end(), ' ')));
-        const char* const end = field.data() + field.size();
-        for (const char* at = field.data();; ++at) {
-            const char* const begin = at;
-            if (!read_step(at, end, steps.emplace_back())) return has_bad_step({begin, std::find(begin, end, ' ')});
-            if (at == end) return {};
-        }
-    }
+    bool is_over() const { return at_ == end_ || *at_ == ' '; }
+    const char* at() const { return at_; }
 
-private:
-    // Moves `at` to the blank behind the step, or to the end.
-    static bool read_step(const char*& at, const char* end, Step& step) {
-        if (!read_number(at, end, step.setting)) return false;
-        double last = 0;  // which number it is shows what follows it
-        std::size_t kinds = 0;
-        for (; kinds < first_kinds_on<axis>; ++kinds) {
-            if (!read_colon(at, end) || !(read_digits(at, end, last) || read_number(at, end, last))) return false;
-            step.work[work_on<axis>[kinds]] = whole(last);
-        }
-        if (!read_colon(at, end) || !read_number(at, end, last)) return false;
-        for (; kinds < work_on<axis>.size() && read_colon(at, end); ++kinds) {
-            step.work[work_on<axis>[kinds]] = whole(last);
-            if (!read_number(at, end, last)) return false;
-        }
-        step.loss_px = last;
-        return at == end || *at == ' ';
-    }
-
-    static bool read_colon(const char*& at, const char* end) {
-        if (at == end || *at != ':') return false;
-        ++at;
+    bool read_colon() {
+        if (at_ == end_ || *at_ != ':') return false;
+        ++at_;
         return true;
     }
 
-    static bool read_number(const char*& at, const char* end, double& number) {
-        const std::from_chars_result result = std::from_chars(at, end, number);
-        at = result.ptr;
+    bool read_number(double& number) {
+        const std::from_chars_result result = std::from_chars(at_, end_, number);
+        at_ = result.ptr;
         return result.ec == std::errc() && number >= 0;
     }
 
+    bool read_count(double& count) { return read_digits(count) || read_number(count); }
+
+    bool read_state(State& state) {
+        if (at_ == end_ || *at_ < '0' || *at_ > '2') return false;
+        state = static_cast<State>(*at_++ - '0');
+        return true;
+    }
+
+private:
     // Up to fifteen digits and no more of a number: as counts are written, and several times as fast as any number.
-    static bool read_digits(const char*& at, const char* end, double& number) {
+    bool read_digits(double& number) {
         constexpr std::ptrdiff_t most_digits = 15;  // any such number is a double
-        const char* digit = at;
+        const char* digit = at_;
         std::int64_t value = 0;
-        for (; digit != end && *digit >= '0' && *digit <= '9'; ++digit) {
-            if (digit - at == most_digits) return false;
+        for (; digit != end_ && *digit >= '0' && *digit <= '9'; ++digit) {
+            if (digit - at_ == most_digits) return false;
             value = 10 * value + (*digit - '0');
         }
-        if (digit == at || digit == end || *digit != ':') return false;
-        at = digit;
+        if (digit == at_ || digit == end_ || *digit != ':') return false;
+        at_ = digit;
         number = static_cast<double>(value);
         return true;
     }
 
-    static std::string has_bad_step(std::string_view step) {
+    const char* at_;
+    const char* end_;
+};
+
+// Steps parted by blanks; `Form` writes and reads one.
+template <class Form>
+struct Steps {
+    template <class AnyStep>
+    static void write(std::string& line, const std::vector<AnyStep>& steps) {
+        const char* blank = "";
+        for (const AnyStep& step : steps) {
+            Form::write_step(line += blank, step);
+            blank = " ";
+        }
+    }
+
+    template <class AnyStep>
+    static std::string read(std::string_view field, std::vector<AnyStep>& steps) {
+        if (field.empty()) return {};
+        steps.reserve(1 + static_cast<std::size_t>(std::count(field.begin(), field.end(), ' ')));
+        const char* const end = field.data() + field.size();
+        for (const char* at = field.data();; ++at) {
+            Numbers numbers(at, end);
+            if (!Form::read_step(numbers, steps.emplace_back()) || !numbers.is_over())
+                return "has " + shown({at, std::find(at, end, ' ')}) + ", expected " + Form::expected();
+            at = numbers.at();
+            if (at == end) return {};
+        }
+    }
+};
+
+// A step is its setting, a count for each kind of the axis, and its loss. One with fewer counts is from before the
+// later kinds: those are 0.
+template <WorkAxis axis>
+struct AxisStep {
+    static constexpr std::size_t most_numbers = 2 + work_on<axis>.size();
+    static constexpr std::size_t least_numbers = 2 + first_kinds_on<axis>;
+
+    static void write_step(std::string& line, const Step& step) {
+        append_number(line, step.setting);
+        for (const WorkKind kind : work_on<axis>) append_number(line += ':', step.work[kind]);
+        append_number(line += ':', step.loss_px);
+    }
+
+    static bool read_step(Numbers& numbers, Step& step) {
+        if (!numbers.read_number(step.setting)) return false;
+        double last = 0;  // which number it is shows what follows it
+        std::size_t kinds = 0;
+        for (; kinds < first_kinds_on<axis>; ++kinds) {
+            if (!numbers.read_colon() || !numbers.read_count(last)) return false;
+            step.work[work_on<axis>[kinds]] = whole(last);
+        }
+        if (!numbers.read_colon() || !numbers.read_number(last)) return false;
+        for (; kinds < work_on<axis>.size() && numbers.read_colon(); ++kinds) {
+            step.work[work_on<axis>[kinds]] = whole(last);
+            if (!numbers.read_number(last)) return false;
+        }
+        step.loss_px = last;
+        return true;
+    }
+
+    static std::string expected() {
         std::string numbers = std::to_string(most_numbers);
         if (least_numbers < most_numbers) numbers = std::to_string(least_numbers) + " to " + numbers;
-        return "has " + shown(step) + ", expected " + numbers + " numbers from 0, parted by colons";
+        return numbers + " numbers from 0, parted by colons";
+    }
+};
+
+// A step is its rate, what that comes to in state, D and S, a count for each kind of work that a decision changes, and
+// its loss.
+struct RateForm {
+    static void write_step(std::string& line, const RateStep& step) {
+        append_number(line, step.rate);
+        StateDigit::write(line += ':', step.state);
+        append_number(line += ':', step.motion_distance);
+        append_number(line += ':', step.splat_size);
+        for (const WorkKind kind : work_on<WorkAxis::shape>) append_number(line += ':', step.work[kind]);
+        for (const WorkKind kind : work_on<WorkAxis::motion>) append_number(line += ':', step.work[kind]);
+        append_number(line += ':', step.loss);
+    }
+
+    static bool read_step(Numbers& numbers, RateStep& step) {
+        const auto read_count = [&](WorkKind kind) {
+            double count = 0;
+            if (!numbers.read_colon() || !numbers.read_count(count)) return false;
+            step.work[kind] = whole(count);
+            return true;
+        };
+        return numbers.read_number(step.rate) && numbers.read_colon() && numbers.read_state(step.state) &&
+               numbers.read_colon() && numbers.read_number(step.motion_distance) && numbers.read_colon() &&
+               numbers.read_number(step.splat_size) && std::ranges::all_of(work_on<WorkAxis::shape>, read_count) &&
+               std::ranges::all_of(work_on<WorkAxis::motion>, read_count) && numbers.read_colon() &&
+               numbers.read_number(step.loss);
+    }
+
+    static std::string expected() {
+        constexpr std::size_t numbers = 5 + work_on<WorkAxis::shape>.size() + work_on<WorkAxis::motion>.size();
+        return std::to_string(numbers) + " numbers from 0, the second a state, parted by colons";
     }
 };
 
@@ -244,8 +318,13 @@ constexpr auto columns_with(std::index_sequence<first...>, std::index_sequence<l
             "drawn_state", "",
             "2: somebody was drawn by less than their triangles; 1: somebody moved less often; 0: neither", optional),
         column<MaybeNumber, &Row::predicted_ms>("predicted_ms", "ms", "what the law expected of this frame", optional),
-        column<Steps<WorkAxis::motion>, &Row::motion>("motion_steps", "", "the forecast: its steps of D", optional),
-        column<Steps<WorkAxis::shape>, &Row::shapes>("splat_steps", "", "the forecast: its steps of S", optional),
+        column<Rate, &Row::decision, &Decision::rate>(
+            "rate", "px/piece", "what the next piece of work had to save to be drawn; 0: D and S decided", optional),
+        column<Steps<AxisStep<WorkAxis::motion>>, &Row::motion>("motion_steps", "", "the forecast: its steps of D",
+                                                                optional),
+        column<Steps<AxisStep<WorkAxis::shape>>, &Row::shapes>("splat_steps", "", "the forecast: its steps of S",
+                                                               optional),
+        column<Steps<RateForm>, &Row::rates>("rate_steps", "", "the forecast: its steps of the rate", optional),
     };
 }
 

@@ -55,6 +55,7 @@ private:
 
 struct HostileForecast {
     std::array<Step, 4> motion, shapes;
+    std::array<RateStep, 4> rates;
     Forecast forecast;
 
     explicit HostileForecast(Reader& reader) {
@@ -66,8 +67,18 @@ struct HostileForecast {
         for (std::size_t i = 0; i < shape_count; ++i) {
             shapes[i] = {reader.number(4), Work{0, reader.count(), reader.count()}, reader.number(1)};
         }
+        const std::size_t rate_count = reader.byte() % (rates.size() + 1);
+        for (std::size_t i = 0; i < rate_count; ++i) {
+            rates[i] = {reader.number(1e-6),
+                        static_cast<State>(reader.byte() % 3),
+                        reader.number(150),
+                        reader.number(4),
+                        Work{0, reader.count(), reader.count(), reader.count(), 0, 0, reader.count()},
+                        reader.number(0.1)};
+        }
         forecast = {Work{reader.count(), 0, 0, 0, reader.count(), reader.count()},
-                    std::span(motion).first(motion_count), std::span(shapes).first(shape_count)};
+                    std::span(motion).first(motion_count), std::span(shapes).first(shape_count),
+                    std::span(rates).first(rate_count)};
     }
 };
 
@@ -81,7 +92,8 @@ public:
         FrameSample sample{++frame_, 0, decision_, {}};
         switch (action) {
             case 0:  // a hostile time of a hostile decision
-                sample.decision = {static_cast<State>(reader.byte() % 3), reader.number(150), reader.number(4)};
+                sample.decision = {static_cast<State>(reader.byte() % 3), reader.number(150), reader.number(4),
+                                   reader.number(1e-6)};
                 [[fallthrough]];
             case 1:  // frames running backwards, hostile work
                 sample.frame = reader.count();
@@ -115,7 +127,7 @@ private:
         if (std::isfinite(request.range) && request.range > 0) range_ = request.range;
         decision_ = law_.decide(request);
         for (const double value :
-             {static_cast<double>(decision_.state), decision_.motion_distance, decision_.splat_size}) {
+             {static_cast<double>(decision_.state), decision_.motion_distance, decision_.splat_size, decision_.rate}) {
             outcome.hash = (outcome.hash ^ std::bit_cast<std::uint64_t>(value)) * 0x100000001b3u;  // FNV-1a by words
         }
         if (outcome.broken.empty()) outcome.broken = broken_rule();
@@ -128,6 +140,7 @@ private:
         if (!(d.splat_size >= 0 && d.splat_size <= max_splat_size)) return "S out of range";
         if ((d.splat_size > 0) != (d.state == State::points)) return "S belongs to state 2";
         if (!(d.motion_distance > 0)) return "D is not over 0";
+        if (!(d.rate >= 0 && std::isfinite(d.rate))) return "no such rate";
         if (d.state != State::original && d.motion_distance > range_) return "D is over L";
         if (!(status.decision == d)) return "status shows another decision";
         if (!std::isfinite(status.target_ms) || !std::isfinite(status.last_ms)) return "status is not finite";

@@ -4,6 +4,8 @@
 
 #include <bit>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <locale>
@@ -55,6 +57,7 @@ TraceRow any_row(std::mt19937_64& random, std::int64_t frame) {
     row.decision.motion_distance = uniform(random, 1e-3, 1e3);
     row.decision.splat_size = uniform(random, 0, max_splat_size);
     if (random() % 4 == 0) row.decision = {};
+    if (random() % 2 == 0) row.decision.rate = uniform(random, 0, 1e-3);
     row.hidden = static_cast<std::int64_t>(random() >> (1 + random() % 63));
     if (random() % 2 == 0) row.drawn_state = static_cast<State>(random() % 3);
     for (std::int64_t& count : row.work.counts) count = static_cast<std::int64_t>(random() >> (1 + random() % 63));
@@ -62,6 +65,11 @@ TraceRow any_row(std::mt19937_64& random, std::int64_t frame) {
         row.motion.push_back({uniform(random, 0, 1e3), Work{0, 0, 0, any_step_count(random)}, uniform(random, 0, 9)});
         row.shapes.push_back(
             {uniform(random, 0, 32), Work{0, any_step_count(random), any_step_count(random)}, uniform(random, 0, 9)});
+        row.rates.push_back({uniform(random, 0, 1e-3), static_cast<State>(random() % 3),
+                             random() % 4 == 0 ? INFINITY : uniform(random, 0, 1e3), uniform(random, 0, 32),
+                             Work{0, any_step_count(random), any_step_count(random), any_step_count(random), 0, 0,
+                                  any_step_count(random)},
+                             uniform(random, 0, 1)});
     }
     return row;
 }
@@ -84,6 +92,7 @@ TEST(Trace, EveryRowReadsBackToTheSameBits) {
         EXPECT_EQ(a.hidden, b.hidden);
         EXPECT_EQ(a.motion, b.motion);
         EXPECT_EQ(a.shapes, b.shapes);
+        EXPECT_EQ(a.rates, b.rates);
         EXPECT_EQ(a.drawn_state, b.drawn_state);
         EXPECT_TRUE(same_bits(a.target_ms, b.target_ms) && same_bits(a.frame_ms, b.frame_ms) &&
                     same_bits(a.cpu_ms, b.cpu_ms) && same_bits(a.gpu_ms, b.gpu_ms) && same_bits(a.range, b.range) &&
@@ -195,6 +204,81 @@ TEST(Trace, EveryFieldOfAStepHasItsPlace) {
     EXPECT_EQ(read_row.motion, (std::vector<Step>{motion_step(INFINITY, 5, 0.25), motion_step(3, 2, 1.5)}));
     EXPECT_EQ(read_row.shapes, (std::vector<Step>{shape_step(0, 900, 1, 2.5), shape_step(4, 800, 7, 8)}));
     EXPECT_EQ(read_row.predicted_ms, 12.5);
+}
+
+TEST(Trace, RatesAndTheirStepsHaveTheirPlaces) {
+    const std::string wide = std::string(header, std::strlen(header) - 1) + ",rate_steps,rate\n";
+    const std::string row = std::string(good_row, std::strlen(good_row) - 1);
+    const TraceRow read_row =
+        read(wide + row + ",1e-6:0:inf:0:900:0:7:5:0 2e-6:2:80:1.5:4:300:6:3:0.25,1.5e-6\n").rows.at(0);
+    ASSERT_EQ(read_row.rates.size(), 2u);
+    EXPECT_EQ(read_row.rates[0], (RateStep{1e-6, State::original, INFINITY, 0, Work{0, 900, 0, 5, 0, 0, 7}, 0}));
+    EXPECT_EQ(read_row.rates[1], (RateStep{2e-6, State::points, 80, 1.5, Work{0, 4, 300, 3, 0, 0, 6}, 0.25}));
+    EXPECT_EQ(read_row.decision, (Decision{State::points, 100, 1.5, 1.5e-6}));
+    EXPECT_EQ(read_row.forecast().rates.data(), read_row.rates.data());
+    const TraceRow older = read(std::string(header) + good_row).rows.at(0);
+    EXPECT_EQ(older.decision.rate, 0);
+    EXPECT_TRUE(older.rates.empty());
+}
+
+TEST(Trace, DamagedRatesAreNamedByTheirLine) {
+    const std::string wide = std::string(header, std::strlen(header) - 1) + ",rate,rate_steps\n";
+    const std::string row = std::string(good_row, std::strlen(good_row) - 1);
+    const std::string steps = "1e-6:0:inf:0:900:0:7:5:0";
+    EXPECT_EQ(read(wide + row + ",0.5," + steps + "\n").rows.at(0).rates.size(), 1u);
+    for (const char* rate : {"", "x", "-1", "nan", "inf"}) {
+        try {
+            read(wide + row + "," + rate + "," + steps + "\n");
+            ADD_FAILURE() << rate;
+        } catch (const std::runtime_error& error) {
+            const std::string said = "t.csv:2: rate is '" + std::string(rate) + "', expected ";
+            EXPECT_TRUE(std::string(error.what()).starts_with(said)) << error.what();
+        }
+    }
+    for (const char* bad : {"1e-6:0:inf:0:900:0:7:5", "1e-6:0:inf:0:900:0:7:5:0:1", "1e-6:3:inf:0:900:0:7:5:0",
+                            "1e-6:00:inf:0:900:0:7:5:0", "-1e-6:0:inf:0:900:0:7:5:0", "1e-6:0:nan:0:900:0:7:5:0",
+                            "1e-6:0:inf:0:-9:0:7:5:0", "1e-6:0:inf:0:900:0:7:5:x", " "}) {
+        try {
+            read(wide + row + ",0," + steps + " " + bad + "\n");
+            ADD_FAILURE() << bad;
+        } catch (const std::runtime_error& error) {
+            EXPECT_TRUE(std::string(error.what()).starts_with("t.csv:2: rate_steps has ")) << error.what();
+            EXPECT_NE(std::string(error.what()).find("expected 9 numbers from 0"), std::string::npos) << error.what();
+        }
+    }
+}
+
+// Numbers of four digits, as renderers that care for their traces give: 17 take twice as much.
+double of_four_digits(double number) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g", number);
+    return std::strtod(text, nullptr);
+}
+
+TEST(Trace, ARowOfAMillionPeopleIsAFewKilobytes) {
+    std::mt19937_64 random(7);
+    const auto number = [&](double low, double high) { return of_four_digits(uniform(random, low, high)); };
+    const auto count = [&](double low, double high) { return std::llround(uniform(random, low, high)); };
+    TraceRow row;
+    row.decision = {State::points, 181.125, 1.25, 1.5e-9};
+    for (std::int64_t& each : row.work.counts) each = count(1e8, 1e9);
+    for (int i = 0; i < 7; ++i) row.motion.push_back(motion_step(number(100, 1000), count(1e5, 1e6), number(0.01, 1)));
+    for (int i = 0; i < 28; ++i) {
+        row.shapes.push_back(shape_step(number(1, 32), count(1e8, 1e9), count(1e7, 1e8), number(0.1, 1)));
+        row.shapes.back().work[WorkKind::single] = count(1e5, 1e6);
+    }
+    for (int i = 0; i < 34; ++i) {
+        RateStep step =
+            rate_step(of_four_digits(1e-9 * std::exp2(i / 2.0)), count(1e7, 1e8), count(1e5, 1e6), number(0.01, 0.1));
+        step.motion_distance = number(100, 1000);
+        step.splat_size = number(1, 32);
+        step.work[WorkKind::triangle] = count(1e8, 1e9);
+        step.work[WorkKind::single] = count(1e5, 1e6);
+        row.rates.push_back(step);
+    }
+    std::ostringstream out;
+    write_trace_row(out, row);
+    EXPECT_LE(out.str().size(), 4096u);
 }
 
 TEST(Trace, DecisionsAtTheirLimitsAreRead) {
