@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "sfsm/least_loss.h"
+#include "sfsm/pair_plans.h"
+#include "sfsm/rate_plans.h"
 #include "sfsm/replay.h"
 #include "sfsm/simulate/paper_crowd.h"
 #include "sfsm/usable.h"
@@ -26,12 +28,14 @@ constexpr std::int64_t usual_start = 200;  // of statistics, or a tenth of a sho
 // The candidates of a frame. Spans point into it, so it stays where it is.
 struct Steps {
     std::vector<Step> motion, shapes;
+    std::vector<RateStep> rates;
     Forecast forecast;
 
     explicit Steps(const Forecast& from)
         : motion(from.motion.begin(), from.motion.end()),
           shapes(from.shapes.begin(), from.shapes.end()),
-          forecast{from.frame, motion, shapes} {}
+          rates(from.rates.begin(), from.rates.end()),
+          forecast{from.frame, motion, shapes, rates} {}
     Steps(const Steps&) = delete;
     Steps(Steps&&) = default;  // vectors keep their memory
 };
@@ -85,17 +89,26 @@ private:
     std::vector<RecordedFrame> frames_;
 };
 
+// A decision by D and S; of what is of no use the nearest, and the finest splats.
+Decision usable(Decision decision, const Forecast& forecast) {
+    if (decision.state == State::original) return {};
+    if (!(decision.motion_distance > 0)) decision.motion_distance = 0;
+    const double finest =
+        decision.state == State::points && forecast.shapes.size() > 1 ? forecast.shapes[1].setting : 0;
+    const bool is_finer = decision.state != State::points || !(decision.splat_size > finest);
+    return {decision.state, decision.motion_distance, is_finer ? finest : decision.splat_size};
+}
+
 Plan RecordedPlant::plan(std::int64_t frame, const Decision& decision) const {
     const Forecast& forecast = *this->forecast(frame);
-    const double range = this->range(frame);
-    double distance = range, size = 0;
-    // Of no use: the nearest, and the finest splats.
-    if (decision.state != State::original) distance = decision.motion_distance > 0 ? decision.motion_distance : 0;
-    if (decision.state == State::points && forecast.shapes.size() > 1) {
-        const double finest = forecast.shapes[1].setting;
-        size = decision.splat_size > finest ? decision.splat_size : finest;
-    }
-    return plan_at(forecast, range, std::min(distance, range), size);
+    const Decision by_pair = usable(decision, forecast);
+    Plan plan = PairPlans(forecast, range(frame)).at(by_pair);
+    if (forecast.rates.empty()) return plan;
+    const RatePlans rates(forecast, range(frame));
+    if (decision.rate > 0) return rates.at(decision);
+    // As much as the rate that loses as many pixels, and no less than the best that can be done in its time.
+    plan.loss = std::max(rates.at(by_pair).loss, rates.least_loss(prices_, plan_ms(plan, prices_)).loss);
+    return plan;
 }
 
 Work RecordedPlant::work(std::int64_t frame, const Decision& decision) const {
@@ -117,6 +130,11 @@ double least_plan_ms(const Forecast& forecast, const Prices& prices) {
 
 Decision RecordedPlant::optimum(std::int64_t frame, double limit_ms) const {
     const Forecast& forecast = *this->forecast(frame);
+    if (!forecast.rates.empty()) {
+        const RatePlans rates(forecast, range(frame));
+        const double least_ms = plan_ms(rates.cheapest(prices_), prices_) * (1 + rounding);
+        return rates.decision_of(rates.least_loss(prices_, std::max(limit_ms / load(frame).factor(), least_ms)));
+    }
     const double least_ms = least_plan_ms(forecast, prices_) * (1 + rounding);
     const Plan best =
         least_loss_plan(forecast, range(frame), prices_, std::max(limit_ms / load(frame).factor(), least_ms));
@@ -131,9 +149,22 @@ bool has_sound_numbers(const Step& step) {
     return std::ranges::all_of(step.work.counts, is_count) && step.loss_px >= 0 && step.loss_px <= most_loss;
 }
 
+// Rates rise; losses don't shrink, as the finest that fits is taken for the one of least loss.
+bool are_sound(std::span<const RateStep> rates) {
+    for (std::size_t i = 0; i < rates.size(); ++i) {
+        const RateStep& step = rates[i];
+        const bool has_sound_numbers = is_usable(step.rate) && step.motion_distance > 0 && step.splat_size >= 0 &&
+                                       step.splat_size <= max_splat_size && step.loss >= 0 && step.loss <= most_loss;
+        if (!has_sound_numbers || !std::ranges::all_of(step.work.counts, is_count)) return false;
+        if (i > 0 && !(step.rate > rates[i - 1].rate && step.loss >= rates[i - 1].loss)) return false;
+    }
+    return true;
+}
+
 // Distances fall, only the first may be infinite; sizes rise from triangles on; all else is finite. Counts may do what
 // they like.
 bool has_sound_forecast(const TraceRow& row) {
+    if (!are_sound(row.rates)) return false;
     if (!row.has_forecast() || !std::ranges::all_of(row.forecast().frame.counts, is_count)) return false;
     if (!std::ranges::all_of(row.motion, has_sound_numbers) || !std::ranges::all_of(row.shapes, has_sound_numbers))
         return false;

@@ -2,7 +2,12 @@
 //   cost(k, decision) = model(work(k, decision)) * load(k)
 //   load(k) = recorded time / model(work(k, recorded decision))
 // So the recorded decision costs the recorded time. For our own traces the model is fitted, and the work of a decision
-// is what the row's forecast says. For anything else both are the reference crowd's.
+// is what the row's forecast says: of its rates for a decision by rate, of its D and S for any other or where the row
+// has no rates. For anything else both are the reference crowd's.
+//
+// Detail is 1 / (1 + loss), with the loss in pixels, or where a row has rates in units of flip_of_a_pixel: so all laws'
+// details in a row are in one unit. There a decision by D and S loses what the first rate does whose own D and S lose
+// as many pixels, but no less than the best rate of its time.
 #pragma once
 
 #include <span>

@@ -14,10 +14,12 @@
 
 #include "sfsm/controller.h"
 #include "sfsm/detail.h"
+#include "sfsm/rate_plans.h"
 #include "sfsm/simulate/course.h"
 #include "sfsm/simulate/metrics.h"
 #include "sfsm/simulate/noise.h"
 #include "sfsm/simulate/work_plant.h"
+#include "tests/sfsm/rate_scene.h"
 
 namespace sfsm::simulate {
 namespace {
@@ -64,6 +66,7 @@ TraceRow row_of(const Plant& plant, std::int64_t frame, const Outcome& outcome) 
     const Forecast& forecast = *plant.forecast(frame);
     row.motion.assign(forecast.motion.begin(), forecast.motion.end());
     row.shapes.assign(forecast.shapes.begin(), forecast.shapes.end());
+    row.rates.assign(forecast.rates.begin(), forecast.rates.end());
     return row;
 }
 
@@ -104,6 +107,35 @@ std::vector<TraceRow> foreign_rows(std::size_t count) {
         rows[i].frame = static_cast<std::int64_t>(i);
         rows[i].target_ms = 12;
         rows[i].frame_ms = 16 + 4 * std::sin(1e-3 * static_cast<double>(i));
+    }
+    return rows;
+}
+
+// The bowl by rate, frame by frame of another size, each drawn at one of the rates in turn or by D and S.
+std::vector<TraceRow> rows_with_rates(int every_how_many_by_pair = 4) {
+    std::vector<TraceRow> rows;
+    for (int i = 0; i < 300; ++i) {
+        const RateScene scene = bowl(20'000 + 8'000 * std::sin(0.05 * i));
+        TraceRow& row = rows.emplace_back();
+        row.frame = i;
+        row.target_ms = 14;
+        row.range = test_range;
+        row.motion = scene.motion;
+        row.shapes = scene.shapes;
+        row.rates = scene.rates;
+        const bool is_by_pair = i % every_how_many_by_pair == 0;
+        if (is_by_pair) {
+            const std::size_t step = 1 + i % 20;
+            row.decision = {State::points, scene.motion[2].setting, scene.shapes[step].setting};
+            row.work = scene.forecast.frame;
+            row.work += scene.motion[2].work;
+            row.work += scene.shapes[step].work;
+        } else {
+            row.decision.rate = scene.rates[static_cast<std::size_t>(i) % scene.rates.size()].rate;
+            row.decision = RatePlans(scene.forecast, test_range).renewed(row.decision);
+            row.work = scene.work(row.decision);
+        }
+        row.frame_ms = scene.ms(row.work);
     }
     return rows;
 }
@@ -389,12 +421,13 @@ TEST(Recorded, HostileRowsGiveFiniteCosts) {
     std::mt19937 random(9);
     const auto number = [&] { return numbers[random() % std::size(numbers)]; };
     const auto count = [&] { return counts[random() % std::size(counts)]; };
+    const std::vector<TraceRow> by_pairs = trace_of_any_decisions(original()), by_rates = rows_with_rates();
     for (int round = 0; round < 300; ++round) {
-        std::vector<TraceRow> rows = trace_of_any_decisions(original());
+        std::vector<TraceRow> rows = round % 2 == 0 ? by_pairs : by_rates;
         rows.resize(60);
         for (int blow = 0; blow < 200; ++blow) {
             TraceRow& row = rows[random() % rows.size()];
-            switch (random() % 12) {
+            switch (random() % 15) {
                 case 0:
                     row.frame_ms = number();
                     break;
@@ -428,6 +461,15 @@ TEST(Recorded, HostileRowsGiveFiniteCosts) {
                 case 10:
                     row.decision.state = static_cast<State>(random() % 3);
                     break;
+                case 11:
+                    row.decision.rate = number();
+                    break;
+                case 12:
+                    row.rates.resize(random() % 3);
+                    break;
+                case 13:
+                    row.rates.assign(1, {number(), State::points, number(), number(), Work{0, count()}, number()});
+                    break;
                 default:
                     row.frame_ms *= 50;
                     break;
@@ -437,7 +479,7 @@ TEST(Recorded, HostileRowsGiveFiniteCosts) {
             const Scenario scenario = recorded_scenario(rows, options);
             const std::vector<Outcome> outcomes = closed_loop(scenario, "predictive");
             for (std::int64_t frame = 0; frame < scenario.frames; ++frame) {
-                const Decision decision{static_cast<State>(random() % 3), number(), number()};
+                const Decision decision{static_cast<State>(random() % 3), number(), number(), number()};
                 for (const double cost_ms :
                      {scenario.plant->cost_ms(frame, decision), outcomes[static_cast<std::size_t>(frame)].cost_ms}) {
                     ASSERT_TRUE(std::isfinite(cost_ms) && cost_ms > 0) << "round " << round << " frame " << frame;
@@ -460,6 +502,112 @@ TEST(Recorded, TheSameRowsGiveTheSameBits) {
         return bits;
     };
     EXPECT_EQ(times(), times());
+}
+
+// --- Rates.
+
+TEST(RecordedRates, TheRecordedDecisionsTakeTheRecordedTimesAndWork) {
+    const std::vector<TraceRow> rows = rows_with_rates();
+    const Scenario scenario = recorded_scenario(rows, own);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const auto frame = static_cast<std::int64_t>(i);
+        EXPECT_NEAR(scenario.plant->cost_ms(frame, rows[i].decision), rows[i].frame_ms, rounding * rows[i].frame_ms);
+        EXPECT_EQ(scenario.plant->work(frame, rows[i].decision), rows[i].work) << i;
+        EXPECT_EQ(scenario.plant->forecast(frame)->rates.size(), rows[i].rates.size());
+    }
+}
+
+TEST(RecordedRates, OtherRatesTakeWhatTheRecordedRendererWouldHaveTaken) {
+    const std::vector<TraceRow> rows = rows_with_rates();
+    const Scenario scenario = recorded_scenario(rows, own);
+    for (std::int64_t frame = 0; frame < scenario.frames; frame += 7) {
+        const RateScene scene = bowl(20'000 + 8'000 * std::sin(0.05 * static_cast<double>(frame)));
+        for (const RateStep& step : scene.rates) {
+            Decision decision;
+            decision.rate = step.rate;
+            const double ms = scene.ms(step);
+            EXPECT_NEAR(scenario.plant->cost_ms(frame, decision), ms, 0.03 * ms) << frame;
+            EXPECT_NEAR(scenario.plant->detail(frame, decision), 0.05 / (0.05 + step.loss), rounding);
+        }
+    }
+}
+
+TEST(RecordedRates, NoDecisionByDistanceAndSizeKeepsMoreThanTheBestRateOfItsTime) {
+    const std::vector<TraceRow> rows = rows_with_rates();
+    const Scenario scenario = recorded_scenario(rows, own);
+    const Plant& plant = *scenario.plant;
+    for (const std::int64_t frame : {0, 1, 77}) {
+        double before = 2;
+        for (const Step& shape : rows[static_cast<std::size_t>(frame)].shapes) {
+            const Decision decision{shape.setting > 0 ? State::points : State::slowed, 120, shape.setting};
+            const double detail = plant.detail(frame, decision);
+            const Decision best = plant.optimum(frame, plant.cost_ms(frame, decision));
+            EXPECT_GT(best.rate, 0);
+            EXPECT_LE(detail, plant.detail(frame, best) * (1 + 1e-9)) << shape.setting;
+            EXPECT_LE(detail, before * (1 + 1e-9)) << "coarser splats lose no less";
+            before = detail;
+        }
+        EXPECT_EQ(plant.detail(frame, {}), 1);
+    }
+}
+
+TEST(RecordedRates, TheOptimumIsTheFinestRateThatFits) {
+    const std::vector<TraceRow> rows = rows_with_rates();
+    const Scenario scenario = recorded_scenario(rows, own);
+    const Plant& plant = *scenario.plant;
+    for (const double limit_ms : {7.0, 10.0, 15.0, 20.0}) {
+        const Decision best = plant.optimum(5, limit_ms);
+        EXPECT_LE(plant.cost_ms(5, best), limit_ms * (1 + 1e-9));
+        for (const RateStep& step : rows[5].rates) {
+            Decision decision;
+            decision.rate = step.rate;
+            if (plant.cost_ms(5, decision) > limit_ms) continue;
+            EXPECT_GE(plant.detail(5, best), plant.detail(5, decision));
+        }
+    }
+}
+
+TEST(RecordedRates, EveryLawsLoopIsClosedAndTheRateHoldsTheTargetFinest) {
+    std::vector<TraceRow> rows = rows_with_rates();
+    const Course course = make_course(recorded_scenario(rows, own));
+    std::vector<Outcome> outcomes;
+    double by_rate = 0;
+    for (const std::string_view law : law_names()) {
+        run(course, *make_controller(law), {}, outcomes);
+        const Metrics metrics = measure(course, outcomes);
+        EXPECT_GT(metrics.control_rate, 0.5) << law;
+        EXPECT_LE(metrics.quality, 1 + 1e-6) << law;
+        if (law == "predictive") by_rate = metrics.quality;
+    }
+    run(course, *make_controller("predictive"), {}, outcomes);
+    EXPECT_GT(outcomes.back().decision.rate, 0);
+    EXPECT_GT(measure(course, outcomes).within_10pct, 0.9);
+    EXPECT_GT(by_rate, 0.97);
+}
+
+TEST(RecordedRates, ARowWithoutRatesIsDrawnByWhatTheRateComesTo) {
+    std::vector<TraceRow> rows = rows_with_rates(2);
+    for (std::size_t i = 100; i < rows.size(); ++i) rows[i].rates.clear();
+    const Scenario scenario = recorded_scenario(rows, own);
+    const Decision by_rate{State::points, 120, 2, 1e-9}, by_pair{State::points, 120, 2};
+    EXPECT_NE(scenario.plant->cost_ms(50, by_rate), scenario.plant->cost_ms(50, by_pair));
+    EXPECT_EQ(scenario.plant->cost_ms(150, by_rate), scenario.plant->cost_ms(150, by_pair));
+    EXPECT_EQ(scenario.plant->detail(150, by_rate), scenario.plant->detail(150, by_pair));
+}
+
+TEST(RecordedRates, UnsoundRatesAreReplacedByThoseOfTheRowBefore) {
+    std::vector<TraceRow> rows = rows_with_rates();
+    std::swap(rows[50].rates[3], rows[50].rates[4]);
+    rows[51].rates[3].loss = none;
+    rows[52].rates[3].rate = infinity;
+    rows[53].rates[3].splat_size = 99;
+    rows[54].rates[3].motion_distance = 0;
+    rows[55].rates[3].work.counts[2] = -1;
+    rows[56].rates[3].loss = 0.9;
+    const Scenario scenario = recorded_scenario(rows, own);
+    for (const std::int64_t frame : {50, 51, 52, 53, 54, 55, 56})
+        EXPECT_EQ(scenario.plant->forecast(frame), scenario.plant->forecast(49)) << frame;
+    EXPECT_NE(scenario.plant->forecast(57), scenario.plant->forecast(49));
 }
 
 TEST(Recorded, AShortRunIsJudgedFromItsTenthOn) {
