@@ -1,5 +1,6 @@
 #include "sfsm/report/embedded.h"
 
+#include <algorithm>
 #include <bit>
 #include <concepts>
 #include <cstdint>
@@ -48,6 +49,8 @@ void write_run(std::ostream& out, const ReportRun& run) {
     write_series(out << ',', "motion_distance", run.frames, &ReportFrame::motion_distance);
     write_series(out << ',', "splat_size", run.frames, &ReportFrame::splat_size);
     write_series(out << ',', "state", run.frames, &ReportFrame::state);
+    const bool is_by_rate = std::ranges::any_of(run.frames, [](const ReportFrame& frame) { return frame.rate > 0; });
+    if (is_by_rate) write_series(out << ',', "rate", run.frames, &ReportFrame::rate);
     out << "}}";
 }
 

@@ -9,7 +9,8 @@ namespace sfsm {
 ReportFrame report_frame(const TraceRow& row) {
     return {static_cast<float>(row.target_ms),           static_cast<float>(row.frame_ms),
             static_cast<float>(row.predicted_ms),        static_cast<float>(row.decision.motion_distance),
-            static_cast<float>(row.decision.splat_size), row.decision.state};
+            static_cast<float>(row.decision.splat_size), row.decision.state,
+            static_cast<float>(row.decision.rate)};
 }
 
 std::vector<Score> time_scores(const std::vector<ReportFrame>& frames) {

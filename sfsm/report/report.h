@@ -22,6 +22,7 @@ struct ReportFrame {
     float motion_distance = 0;                                     // D [m]; means nothing in state 0, may be infinite
     float splat_size = 0;                                          // S [px]
     State state = State::original;
+    float rate = 0;  // [px / piece]; 0: D and S decided
 };
 ReportFrame report_frame(const TraceRow& row);
 
@@ -53,7 +54,8 @@ struct Report {
 };
 
 // Text may hold anything: it is escaped. The same report gives the same bytes. Runs have eight colours; the ninth has
-// the first's again. A page takes at most 28 bytes a frame and run, a picture never more than some 100 KB a run.
+// the first's again. A page takes at most 28 bytes a frame and run, 34 where it was
+// decided by rate, a picture never more than some 100 KB a run.
 void write_report_html(std::ostream& out, const Report& report);
 void write_report_svg(std::ostream& out, const Report& report);
 

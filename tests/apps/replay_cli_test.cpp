@@ -7,8 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "sfsm/controller.h"
 #include "sfsm/trace.h"
 #include "tests/command.h"
+#include "tests/sfsm/rate_scene.h"
 
 namespace {
 
@@ -135,6 +137,57 @@ TEST_F(ReplayProgram, VerifiesARecordedRun) {
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("all 600 decisions of law predictive reproduced to the bit"), std::string::npos)
         << outcome.out;
+}
+
+// The bowl by rate, as a renderer that knows rates would have recorded it.
+sfsm::Trace recorded_by_rate() {
+    sfsm::Trace trace;
+    trace.settings = {{"law", "predictive"}, {"state", "auto"}, {"delay", "0"}, {"target_ms", "14"}};
+    const auto law = sfsm::make_controller("predictive");
+    for (std::int64_t frame = 0; frame < 200; ++frame) {
+        const sfsm::RateScene scene = sfsm::bowl(20'000 + 5'000 * std::sin(0.05 * static_cast<double>(frame)));
+        sfsm::TraceRow& row = trace.rows.emplace_back();
+        row.frame = frame;
+        row.target_ms = 14;
+        row.range = sfsm::test_range;
+        row.motion = scene.motion;
+        row.shapes = scene.shapes;
+        row.rates = scene.rates;
+        row.decision = law->decide({row.target_ms, row.range, &scene.forecast});
+        row.work = scene.work(row.decision);
+        row.frame_ms = scene.ms(row.work);
+        law->observe({frame, row.frame_ms, row.decision, row.work});
+    }
+    return trace;
+}
+
+TEST_F(ReplayProgram, DecisionsByRateAreReproducedToTheBitAndRerun) {
+    const sfsm::Trace trace = recorded_by_rate();
+    const std::string saved = save(trace);
+    const Outcome verified = replay(saved + " --verify");
+    EXPECT_EQ(verified.code, 0) << verified.err;
+    EXPECT_NE(verified.out.find("all 200 decisions"), std::string::npos) << verified.out;
+    for (const char* loop : {"", " --open-loop"}) {
+        const Outcome rerun = replay(saved + loop + " --csv -");
+        ASSERT_EQ(rerun.code, 0) << rerun.err;
+        std::istringstream in(rerun.out);
+        const sfsm::Trace again = sfsm::read_trace(in, "again");
+        ASSERT_EQ(again.rows.size(), trace.rows.size());
+        for (std::size_t i = 0; i < again.rows.size(); ++i) {
+            EXPECT_GT(again.rows[i].decision.rate, 0) << i;
+            EXPECT_EQ(again.rows[i].rates, trace.rows[i].rates) << i;
+        }
+    }
+}
+
+TEST_F(ReplayProgram, NamesARateThatIsNotReproduced) {
+    sfsm::Trace trace = recorded_by_rate();
+    trace.rows[57].decision.rate = 0.25;
+    const Outcome outcome = replay(save(trace) + " --verify");
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_NE(outcome.err.find("frame 57: found rate 0.25, expected "), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("the law has changed since"), std::string::npos) << outcome.err;
+    EXPECT_TRUE(tests::one_line(outcome.err)) << outcome.err;
 }
 
 TEST_F(ReplayProgram, NamesTheFrameAndFieldThatAreNotReproduced) {

@@ -104,6 +104,12 @@ protected:
             const bool has_distance = shown.state != sfsm::State::original;
             expect_told(run, "distance", has_distance ? shown.motion_distance : std::nanf(""));
             EXPECT_EQ(told(run, "state"), states[static_cast<std::size_t>(shown.state)]);
+            const std::string rate = told(run, "rate");
+            if (shown.rate > 0) {
+                EXPECT_NEAR(std::stod(rate), shown.rate, 1e-3 * shown.rate);
+            } else {
+                EXPECT_EQ(rate, "\u2013");
+            }
         }
     }
 

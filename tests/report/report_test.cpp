@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <map>
@@ -98,6 +99,13 @@ void expect_embedded(const std::vector<ReportFrame>& frames, const json& run) {
         for (std::size_t i = 0; i < values.size(); ++i) {
             ASSERT_EQ(values[i], std::bit_cast<std::uint32_t>(frames[i].*field)) << name << " of frame " << i;
         }
+    }
+    const bool is_by_rate = std::ranges::any_of(frames, [](const ReportFrame& frame) { return frame.rate > 0; });
+    ASSERT_EQ(run["series"].contains("rate"), is_by_rate) << "where it has a value";
+    if (is_by_rate) {
+        const auto rates = decoded<float>(run["series"]["rate"]);
+        ASSERT_EQ(rates.size(), frames.size());
+        for (std::size_t i = 0; i < rates.size(); ++i) ASSERT_EQ(rates[i], frames[i].rate) << i;
     }
     const auto states = decoded<std::uint8_t>(run["series"]["state"]);
     ASSERT_EQ(states.size(), frames.size());
@@ -325,13 +333,14 @@ TEST(Report, FrameOfATraceRow) {
     row.target_ms = 33;
     row.frame_ms = 34.5;
     row.predicted_ms = 32;
-    row.decision = {State::points, 120, 4.25};
+    row.decision = {State::points, 120, 4.25, 0.5};
     const ReportFrame frame = sfsm::report_frame(row);
     EXPECT_EQ(frame.target_ms, 33);
     EXPECT_EQ(frame.frame_ms, 34.5F);
     EXPECT_EQ(frame.predicted_ms, 32);
     EXPECT_EQ(frame.motion_distance, 120);
     EXPECT_EQ(frame.splat_size, 4.25F);
+    EXPECT_EQ(frame.rate, 0.5F);
     EXPECT_EQ(frame.state, State::points);
 }
 

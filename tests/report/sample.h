@@ -12,7 +12,8 @@ namespace tests {
 inline const std::string hostile =
     "</title></script><script>alert('1')</script>\"'><img src=x onerror=alert(2)>&amp;\\]]>-->\n\x01\xFF{{data}}";
 
-// 400 frames that fall from 60 ms to 33, with a spike of 1.4 s, one frame that was not measured and one of infinite D.
+// 400 frames that fall from 60 ms to 33, with a spike of 1.4 s, one frame that was not measured and one of infinite D;
+// of a law that predicts, the later ones are by rate.
 inline sfsm::ReportRun sample_run(const std::string& name, float share, bool predicts) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     sfsm::ReportRun run{name, {}, {}};
@@ -24,6 +25,7 @@ inline sfsm::ReportRun sample_run(const std::string& name, float share, bool pre
         frame.state = static_cast<sfsm::State>(i < 20 ? 0 : i < 120 ? 1 : 2);
         frame.motion_distance = 200 - 0.25F * static_cast<float>(i) * share;
         frame.splat_size = frame.state == sfsm::State::points ? 2 + 0.01F * static_cast<float>(i) : 0;
+        if (predicts && i >= 120) frame.rate = 1e-9F * static_cast<float>(1 + i / 100);
         run.frames.push_back(frame);
     }
     run.frames[150].frame_ms = 1400;

@@ -29,6 +29,7 @@ function decodeRun({ name, frames, series }, index) {
   return {
     index, name, frames, state, distance, shown: true,
     target: floats("target_ms"), time: floats("frame_ms"), predicted: floats("predicted_ms"), splat: floats("splat_size"),
+    rate: series.rate ? floats("rate") : null,  // null: D and S decided all along
   };
 }
 

@@ -56,6 +56,8 @@ const columns = [
   ["distance", "D m", (run, i) => frameText(run.distance[i])],
   ["splat", "S px", (run, i) => frameText(run.splat[i])],
 ];
+const hasRates = runs.some((run) => run.rate);
+if (hasRates) columns.push(["rate", "rate px/piece", (run, i) => (run.rate?.[i] > 0 ? brief(Number(run.rate[i].toPrecision(4))) : "\u2013")]);
 
 function addChip(parent, run) {
   const chip = addHtml(parent, "i", "", { class: "chip" });
@@ -272,6 +274,7 @@ function begin() {
   if (frameCount === 0) return;  // nothing to draw
   byId("times").hidden = byId("spread").hidden = false;
   for (const part of [byId("scatter"), document.querySelector(".key-predicted")]) part.hidden = !predicts.includes(true);
+  byId("rate-words").hidden = !hasRates;
   makeLegend();
   for (const id of ["frame-chart", "distance-chart", "splat-chart"]) listenToChart(id);
   for (const button of byId("scale").children) button.addEventListener("click", () => chooseScale(button.dataset.scale));
