@@ -47,7 +47,8 @@ struct Forecast {
     std::span<const Step> shapes;
     // Empty where the renderer knows no rates. The rate rises along it, the loss never shrinks, and the work, by what
     // pieces are believed to cost (work.h), never grows. Between two steps laws interpolate: rates and counts in
-    // straight lines of logarithms, losses in straight lines. Octaves of the rate apart at most.
+    // straight lines of logarithms, losses in straight lines; counts of a kind that begins there in a straight line,
+    // and of one that ends there as if it ended at 1 (rate_plans.h says why). Octaves of the rate apart at most.
     std::span<const RateStep> rates = {};
 };
 

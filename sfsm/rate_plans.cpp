@@ -13,8 +13,7 @@ constexpr double coarser_lesson = 4;   // times the rate of the first frame draw
 constexpr int most_rounds = 6;         // to find the place that fills a budget
 constexpr double close_enough = 1e-3;  // of the budget that may stay unused there
 
-// Straight in logarithms; straight where a kind begins. One that ends is nearly gone half way: of a kind that is
-// foreseen to the end but no longer drawn, the price would never be learned, nor what such a place takes.
+// Straight in logarithms; straight where a kind begins; where one ends, straight in logarithms of one more.
 double count_between(double from, double to, double share) {
     if (from == to) return to;
     return to > 0 ? power_between(from, to, share) : power_between(1 + from, 1, share) - 1;

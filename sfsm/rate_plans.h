@@ -1,4 +1,8 @@
 // Plans by the one rate at which error is exchanged for work: the steps of Forecast::rates, and the places between two.
+//
+// A kind that ends between two steps is taken to be nearly gone half way. Were it foreseen to the end in a straight
+// line, a place there would be foreseen to draw what it no longer draws: the price of that would never be learned, nor
+// what such a place takes.
 #pragma once
 
 #include "sfsm/forecast.h"

@@ -83,6 +83,7 @@ TEST_F(ForesightOf, AFrameIsThatFramesAlone) {
     foresight_.observe(frame(7 + 32), twice, model_);  // of the same place in the ring
     foresight_.observe(frame(7, {State::points, 50, 3}), twice, model_);
     foresight_.observe(frame(7, {State::slowed, 50, 0}), twice, model_);
+    foresight_.observe(frame(7, {State::points, 50, 2, 1e-6}), twice, model_);
     foresight_.observe(frame(0), twice, model_);  // never foreseen
     EXPECT_EQ(foresight_.bias(), 0);
     foresight_.observe(frame(7), twice, model_);
