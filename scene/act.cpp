@@ -58,15 +58,6 @@ std::int64_t length_of(const motion::PoseTable& poses, std::uint8_t clip) {
     return poses.clips[clip].ticks();
 }
 
-// Clips follow one another only if they take equally long.
-bool acts_alternate(const Acts& acts, const motion::PoseTable& poses) {
-    if (acts.excited.empty()) return false;
-    const std::int64_t length = length_of(poses, acts.calm.front());
-    const auto same = [&](std::uint8_t clip) { return length_of(poses, clip) == length; };
-    return std::all_of(acts.calm.begin(), acts.calm.end(), same) &&
-           std::all_of(acts.excited.begin(), acts.excited.end(), same);
-}
-
 // One act for ever, at a phase of one's own.
 Act keep_acting(const Acts& acts, const motion::PoseTable& poses, std::uint32_t own, std::int64_t tick) {
     constexpr float excited_share = 0.25f;
@@ -103,17 +94,30 @@ Act alternate(const Acts& acts, const motion::PoseTable& poses, std::uint32_t ow
 
 }  // namespace
 
+double speed_of(const Crowd& crowd, std::size_t person, const CastMember& member) {
+    constexpr double reference_height = 1.75;  // [m] that gait speeds are given at
+    return static_cast<double>(member.gait_speed[static_cast<std::size_t>(crowd.role[person])]) *
+           static_cast<double>(crowd.height[person]) / reference_height;
+}
+
 Placement place(const Crowd& crowd, std::size_t person, const CastMember& member, std::int64_t tick) {
     const glm::vec3 at = crowd.position[person];
     const Role role = crowd.role[person];
     if (!follows_path(role)) return {at, crowd.yaw[person]};
-    constexpr double reference_height = 1.75;  // [m] that gait speeds are given at
-    const double speed = static_cast<double>(member.gait_speed[static_cast<std::size_t>(role)]) *
-                         static_cast<double>(crowd.height[person]) / reference_height;
-    const double run = static_cast<double>(at.z) + speed * static_cast<double>(tick) / motion::ticks_per_second;
+    const double run = static_cast<double>(at.z) +
+                       speed_of(crowd, person, member) * static_cast<double>(tick) / motion::ticks_per_second;
     const float arc = static_cast<float>(std::fmod(run, static_cast<double>(crowd.path->length(at.x))));
     const glm::vec2 xz = crowd.path->position(arc, at.x), ahead = crowd.path->tangent(arc, at.x);
     return {{xz.x, at.y, xz.y}, std::atan2(ahead.x, ahead.y)};
+}
+
+// Clips follow one another only if they take equally long.
+bool changes_acts(Role role, const Acts& acts, const motion::PoseTable& poses) {
+    if (follows_path(role) || acts.excited.empty()) return false;
+    const std::int64_t length = length_of(poses, acts.calm.front());
+    const auto same = [&](std::uint8_t clip) { return length_of(poses, clip) == length; };
+    return std::all_of(acts.calm.begin(), acts.calm.end(), same) &&
+           std::all_of(acts.excited.begin(), acts.excited.end(), same);
 }
 
 Act act_around(const Crowd& crowd, std::size_t person, const CastMember& member, const motion::PoseTable& poses,
@@ -121,7 +125,7 @@ Act act_around(const Crowd& crowd, std::size_t person, const CastMember& member,
     const Role role = crowd.role[person];
     const Acts& acts = member.acts[static_cast<std::size_t>(role)];
     const std::uint32_t own = crowd.hash[person];
-    if (follows_path(role) || !acts_alternate(acts, poses)) return keep_acting(acts, poses, own, tick);
+    if (!changes_acts(role, acts, poses)) return keep_acting(acts, poses, own, tick);
     return alternate(acts, poses, own, crowd.around[person], role == Role::spectator, tick);
 }
 

@@ -76,6 +76,9 @@ struct Action {
     std::int64_t clip_tick;  // of the clip's own time
 };
 
+// [m/s] How fast a walker or runner goes.
+double speed_of(const Crowd& crowd, std::size_t person, const CastMember& member);
+
 Placement place(const Crowd& crowd, std::size_t person, const CastMember& member, std::int64_t tick);
 
 // Whether `person` has come in by `tick`.
@@ -89,6 +92,10 @@ struct Act {
 
     Action at(std::int64_t tick) const { return {clip, holds ? 0 : tick - from}; }
 };
+
+// Whether who has this role goes from one of its clips to any other as it ends; between them they may hold the first
+// pose of the first calm one. Who doesn't goes on with one clip for ever.
+bool changes_acts(Role role, const Acts& acts, const motion::PoseTable& poses);
 
 // What `person` does around `tick` of the scene: phase, choice between acts (cheering travels around the place as a
 // wave now and then), all from hash and tick.

@@ -17,7 +17,9 @@ public:
     virtual float length(float offset) const = 0;                   // [m] of the parallel, above 0
     virtual glm::vec2 position(float arc, float offset) const = 0;  // x, z [m]
     virtual glm::vec2 tangent(float arc, float offset) const = 0;   // unit, in the direction of growing arc
-    virtual motion::Bounds bounds(float offset) const = 0;          // [m] of the whole parallel; flat, at y = 0
+    // [rad/m] How far the tangent turns on a metre of the parallel where it turns most; infinite if on the spot.
+    virtual float turning(float offset) const = 0;
+    virtual motion::Bounds bounds(float offset) const = 0;  // [m] of the whole parallel; flat, at y = 0
 };
 
 }  // namespace scene

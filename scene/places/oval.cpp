@@ -63,6 +63,10 @@ glm::vec2 Oval::tangent(float arc, float offset) const {
     return {out.y, -out.x};
 }
 
+float Oval::turning(float offset) const {
+    return 1.0f / (radius + offset);
+}
+
 motion::Bounds Oval::bounds(float offset) const {
     const float bend_radius = radius + offset;
     const glm::vec3 reach(half_straight + bend_radius, 0, bend_radius);

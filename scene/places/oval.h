@@ -18,6 +18,7 @@ struct Oval final : Path {
     glm::vec2 position(float arc, float offset) const override;  // arc wraps
     glm::vec2 outward(float arc, float offset) const;            // unit
     glm::vec2 tangent(float arc, float offset) const override;
+    float turning(float offset) const override;
     motion::Bounds bounds(float offset) const override;
     float offset_of(glm::vec2 xz) const;  // signed distance from the inner line, outward positive
 };

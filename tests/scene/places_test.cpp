@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "scene/gathering.h"
@@ -56,6 +57,7 @@ struct ThereAndBack final : scene::Path {
     glm::vec2 tangent(float arc, float) const override {
         return {arc - 2 * end * std::floor(arc / (2 * end)) < end ? 1 : -1, 0};
     }
+    float turning(float) const override { return std::numeric_limits<float>::infinity(); }
     motion::Bounds bounds(float offset) const override { return {{0, 0, offset}, {end, 0, offset}}; }
 };
 
