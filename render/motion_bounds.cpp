@@ -81,6 +81,18 @@ struct Found {
     std::vector<float> turned;          // by clip: the largest squared distance from the axis that people turn about
     std::array<ByAge, scene::role_count> change{}, far_change{};  // from one clip of a role to another
 
+    void widen_by(const Found& other) {
+        for (std::size_t i = 0; i < clip.size(); ++i) {
+            widen(clip[i], other.clip[i]);
+            widen(far_clip[i], other.far_clip[i]);
+            turned[i] = std::max(turned[i], other.turned[i]);
+        }
+        for (int role = 0; role < scene::role_count; ++role) {
+            widen(change[role], other.change[role]);
+            widen(far_change[role], other.far_change[role]);
+        }
+    }
+
     explicit Found(std::size_t clips) : clip(clips), far_clip(clips), turned(clips) {}
 };
 
@@ -117,28 +129,13 @@ public:
         length_ = first;
     }
 
+    // Some vertices first: the others can add little to what those did.
     Found find() const {
-        tbb::enumerable_thread_specific<Found> found(table_.clips.size());
-        const auto all = static_cast<std::size_t>(table_.vertex_count);
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, (all + together - 1) / together),
-                          [&](const tbb::blocked_range<std::size_t>& range) {
-                              Scratch scratch;
-                              for (std::size_t i = range.begin(); i < range.end(); ++i)
-                                  look(i * together, std::min(together, all - i * together), scratch, found.local());
-                          });
-        Found sum(table_.clips.size());
-        for (const Found& one : found) {
-            for (std::size_t clip = 0; clip < sum.clip.size(); ++clip) {
-                widen(sum.clip[clip], one.clip[clip]);
-                widen(sum.far_clip[clip], one.far_clip[clip]);
-                sum.turned[clip] = std::max(sum.turned[clip], one.turned[clip]);
-            }
-            for (int role = 0; role < scene::role_count; ++role) {
-                widen(sum.change[role], one.change[role]);
-                widen(sum.far_change[role], one.far_change[role]);
-            }
-        }
-        return sum;
+        constexpr std::size_t first_ones = 16;
+        const std::size_t groups = (static_cast<std::size_t>(table_.vertex_count) + together - 1) / together;
+        std::vector<std::size_t> some, others;
+        for (std::size_t i = 0; i < groups; ++i) (i % first_ones == 0 ? some : others).push_back(i);
+        return look_at(others, look_at(some, Found(table_.clips.size())));
     }
 
 private:
@@ -149,6 +146,22 @@ private:
     struct Scratch {
         std::array<Track, together> real, shown;
     };
+
+    Found look_at(std::span<const std::size_t> groups, const Found& known) const {
+        tbb::enumerable_thread_specific<Found> found(known);
+        const auto all = static_cast<std::size_t>(table_.vertex_count);
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, groups.size()),
+                          [&](const tbb::blocked_range<std::size_t>& range) {
+                              Scratch scratch;
+                              for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                                  const std::size_t first = groups[i] * together;
+                                  look(first, std::min(together, all - first), scratch, found.local());
+                              }
+                          });
+        Found sum = known;
+        for (const Found& one : found) sum.widen_by(one);
+        return sum;
+    }
 
     void look(std::size_t first, std::size_t count, Scratch& scratch, Found& found) const {
         for (std::size_t i = 0; i < count; ++i) {
