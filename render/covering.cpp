@@ -158,8 +158,8 @@ float nearest(const Axes& points, std::size_t first, std::size_t end, const glm:
 // Of a piece, the points that may be nearest to it, rising: rung by rung those that are much nearer in some pose than
 // what there was. Where many points are, two poses find them: they are of the same limb in all.
 std::vector<std::uint32_t> find_neighbours(const model::Mesh& mesh, const Piece& piece, std::span<const Pose> poses) {
-    constexpr float nearer = 0.9f;  // squared
-    constexpr std::size_t many = 256, few_poses = 2;
+    constexpr float nearer = 0.99f;  // squared
+    constexpr std::size_t many = 1024, few_poses = 2;
     std::vector<glm::vec3> from;
     for (const Pose& pose : poses) from.push_back(place_of(mesh, piece.triangle, piece.middle(), pose.vertices));
     std::vector<float> best(poses.size(), infinite);
@@ -277,7 +277,7 @@ Covering::Covering(const figures::Figure& figure) {
     const auto points = static_cast<std::uint32_t>(table.point_count);
     const auto poses = static_cast<std::size_t>(table.pose_count);
     // Looked at with all their neighbours in every pose: some ten nanoseconds each.
-    constexpr std::size_t most_posed_pieces = 3'000'000, most_pieces = 6'000;
+    constexpr std::size_t most_posed_pieces = 2'000'000, most_pieces = 6'000;
     const float small = 0.5f * std::sqrt(table.area / static_cast<float>(points));
     const std::vector<Pose> some = spread_poses(table);
     const std::vector<Piece> pieces = cut(*figure.mesh, some, small, std::min(most_posed_pieces / poses, most_pieces));
