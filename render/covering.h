@@ -15,7 +15,7 @@ public:
     // Of a figure whose people have no points.
     Covering() = default;
 
-    // Needs its mesh and poses. 20 to 60 ms of a few thousand points and a quarter of a million posed vertices or more.
+    // Needs its mesh and poses. 20 to 70 ms of a few thousand points, on two cores.
     explicit Covering(const figures::Figure& figure);
 
     // [model units] Of the first `count` points of PoseTable::points; all of them if there are fewer. Never rises with

@@ -17,7 +17,7 @@ struct ErrorBounds {
     float size = 0;     // [model units] between any two spots of a pose, so of people drawn as one splat
 };
 
-// By character. Below 100 ms each, on two cores.
+// By character: 60 ms of the built-in person on two cores, 110 of one of 13,000 vertices and 285 poses.
 std::vector<ErrorBounds> measure_error_bounds(const scene::Crowd& crowd, std::span<const scene::CastMember> cast,
                                               std::span<const figures::Figure> figures);
 

@@ -175,6 +175,15 @@ TEST(ErrorBounds, CountTheStepFromAClipToAnother) {
     expect_exact(jumping({{0, 60, 1}, {0, 60, 1}, {0, 60, 1}}, 6), {1, 2});
 }
 
+TEST(ErrorBounds, CountTheStepFromThePoseThatIsHeldToAClip) {
+    // Who waits for a wave holds the first pose; from no other is it so far to the first of those that follow.
+    motion::PoseTable table = jumping({{0, 60, 1}, {0, 60, 1}}, 5);
+    for (motion::PosedVertex& vertex : table.vertices) vertex = {32767, 0, 0, 0, 0};
+    table.vertices[0].x = 0;
+    for (int pose = 60; pose < 90; ++pose) table.vertices[pose].x = 65535;
+    expect_exact(table, {1});
+}
+
 TEST(ErrorBounds, CountNoStepToAClipThatNeverFollows) {
     motion::PoseTable table = jumping({{0, 60, 1}, {0, 61, 1}}, 7);
     for (int pose = 0; pose < 60; ++pose) table.vertices[pose] = table.vertices[0];
