@@ -150,6 +150,7 @@ private:
         if (!options_.trace.empty()) {
             row.motion.assign(survey.forecast.motion.begin(), survey.forecast.motion.end());
             row.shapes.assign(survey.forecast.shapes.begin(), survey.forecast.shapes.end());
+            row.rates.assign(survey.forecast.rates.begin(), survey.forecast.rates.end());
         }
         const render::Frame& drawn = selector_->select(row.decision, last_tick_);
         timer.submit();

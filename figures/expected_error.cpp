@@ -1,7 +1,9 @@
 #include "figures/expected_error.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 namespace figures {
 
@@ -21,6 +23,20 @@ double ExpectedError::of_splat(double height) const {
 
 double ExpectedError::of_motion(double off) const {
     return std::min(motion_growth * off, motion_most);
+}
+
+PointsErrors::PointsErrors(const ExpectedError& error, double cell) {
+    for (int octave = 0; octave < octaves; ++octave)
+        for (int eighth = 0; eighth < per_octave; ++eighth) {
+            const double spacing = std::ldexp(1 + (eighth + 0.5) / per_octave, octave + first_octave);
+            errors_[static_cast<std::size_t>(octave * per_octave + eighth)] = error.of_points(spacing, cell);
+        }
+}
+
+double PointsErrors::at(float spacing) const {
+    constexpr int bits = 20, first = (127 + first_octave) * per_octave;  // three bits of the mantissa
+    const int place = static_cast<int>(std::bit_cast<std::uint32_t>(spacing) >> bits) - first;
+    return errors_[static_cast<std::size_t>(std::clamp(place, 0, octaves * per_octave - 1))];
 }
 
 }  // namespace figures

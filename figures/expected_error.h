@@ -5,6 +5,8 @@
 // the cells these are added up in; what triangles and splats lose depends on size alone.
 #pragma once
 
+#include <array>
+
 namespace figures {
 
 struct ExpectedError {
@@ -28,6 +30,20 @@ struct ExpectedError {
     double times_in_cells(double cell) const { return 1 + splat_blur * (cell - 1); }
     // Added to the others. `off` [px] >= 0: how far off surfaces are, mean over them.
     double of_motion(double off) const;
+};
+
+// ExpectedError::of_points in cells of one size, by eighths of an octave of spacing: to be asked for everybody.
+class PointsErrors {
+public:
+    PointsErrors() = default;
+    PointsErrors(const ExpectedError& error, double cell);
+
+    // `spacing` [px] > 0
+    double at(float spacing) const;
+
+private:
+    static constexpr int octaves = 12, per_octave = 8, first_octave = -4;
+    std::array<double, octaves * per_octave> errors_{};
 };
 
 }  // namespace figures

@@ -83,7 +83,8 @@ float between(float a, float b, float share) {
 }  // namespace
 
 double Exchange::rate_of(int step) {
-    return first_rate * std::exp2(step / steps_per_octave);
+    constexpr double digits = 1e6;  // traces keep them all
+    return std::round(digits * first_rate * std::exp2(step / steps_per_octave)) / digits;
 }
 
 float Exchange::share_of(int place) {

@@ -37,6 +37,7 @@ public:
                    float pixels_per_metre);
     // Whether people of a block, who ask for that at S = 1 px, are drawn as one at S > 0 [px]: what the steps foresee.
     bool serves_block(std::size_t kind, float demand_at_unit_splat, double splat_size) const;
+    const figures::Choices& choices(std::size_t kind) const { return kinds_[kind].choices; }
     // `theta` is equation 1's. Valid until the next begin().
     sfsm::Forecast finish(float theta);
 

@@ -65,6 +65,10 @@ struct Frame {
     FarPeople far_people;
     std::uint32_t batch_numbers = 0;  // Person::batch is below it; it rises with character, representation, level, pose
     sfsm::Work work;
+    // What is promised of everybody in it: how far at most any of their surface is drawn from where it is at the tick
+    // as they moved before it, and from the nearest point or triangle that is drawn of it [px].
+    double max_motion_px = 0, max_splat_px = 0;
+    double expected_flip = 0;  // mean over the frame, people and what is around them
     // What became of the decision: 2 if anybody is drawn by anything but a mesh, else 1 if anybody moves less often
     // than every frame, else 0.
     sfsm::State state = sfsm::State::original;

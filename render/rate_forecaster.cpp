@@ -30,6 +30,11 @@ double size_of(int bin) {
     return std::exp2(first_size + whole) * (1 + octave - whole);
 }
 
+// To so many parts of one: traces keep every digit.
+double rounded(double value, double parts) {
+    return std::isfinite(value) ? std::round(parts * value) / parts : value;
+}
+
 // The share of a bin that lies above a place among bins.
 double share_above(int bin, double place) {
     return std::clamp(bin + 1 - place, 0.0, 1.0);
@@ -42,11 +47,12 @@ int Paces::place_of(float pixels_per_metre) {
     return static_cast<int>(std::clamp(place, 0.0f, static_cast<float>(places - 1)));
 }
 
-RateForecaster::RateForecaster(std::vector<Kind> kinds, const figures::Way& way)
+RateForecaster::RateForecaster(std::vector<Kind> kinds, const figures::Way& way, double max_error)
     : kinds_(std::move(kinds)),
       way_(&way),
       mesh_errors_(kinds_.size()),
       splat_errors_(kinds_.size()),
+      max_error_(max_error),
       rows_(kinds_.size() * Exchange::shares * 2),
       motion_(kinds_.size()),
       paces_(kinds_.size()) {
@@ -62,9 +68,13 @@ RateForecaster::RateForecaster(std::vector<Kind> kinds, const figures::Way& way)
     exchange_ = Exchange(exchanged, way);
 }
 
-void RateForecaster::begin(double pixels, float range) {
-    pixels_ = pixels;
-    range_ = range;
+// Aside of the picture's middle what is off by some metres is off by more pixels, and so is what is nearer than a
+// person's middle: of whom is four radii away by a third.
+void RateForecaster::begin(const View& view) {
+    constexpr double nearer = 4.0 / 3;
+    pixels_ = static_cast<double>(view.width) * view.height;
+    allowed_ = max_error_ /
+               (nearer * std::hypot(1.0, static_cast<double>(view.tan_half_x), static_cast<double>(view.tan_half_y)));
     shown_ = 0;
     for (Row& row : rows_) {
         for (int bin = row.first; bin <= row.last; ++bin) row.bins[static_cast<std::size_t>(bin)] = {};
@@ -92,8 +102,33 @@ void RateForecaster::add(const Group& group) {
                             [static_cast<std::size_t>(Paces::place_of(group.pixels_per_metre))];
     motion.nearest = motion.people == 0 ? group.depth : std::min(motion.nearest, group.depth);
     motion.pixels_per_metre = std::max(motion.pixels_per_metre, group.pixels_per_metre);
+    motion.largest_pixels = std::max(motion.largest_pixels,
+                                     std::sqrt(group.surface / static_cast<float>(kinds_[group.kind].exchanged.area)));
     motion.people += group.people;
     motion.shown += shown;
+}
+
+float RateForecaster::least_samples(std::size_t kind, float surface) const {
+    if (!std::isfinite(allowed_)) return 0;
+    const Kind& of = kinds_[kind];
+    const auto radius = static_cast<float>(allowed_ / std::sqrt(static_cast<double>(surface) / of.exchanged.area));
+    const auto most = static_cast<std::uint32_t>(of.exchanged.choices->most_samples());
+    if (!(of.bounds->covering.radius(most) <= radius)) return std::numeric_limits<float>::infinity();
+    std::uint32_t few = 0, enough = most;
+    while (enough - few > 1) {
+        const std::uint32_t middle = few + (enough - few) / 2;
+        (of.bounds->covering.radius(middle) <= radius ? enough : few) = middle;
+    }
+    return static_cast<float>(enough);
+}
+
+bool RateForecaster::may_be_splat(std::size_t kind, float surface) const {
+    if (!std::isfinite(allowed_)) return true;
+    const Kind& of = kinds_[kind];
+    const double pixels = std::sqrt(static_cast<double>(surface) / of.exchanged.area);
+    double off = static_cast<double>(of.bounds->size);
+    for (const MotionBound& bound : of.bounds->motion.far) off = std::max(off, static_cast<double>(bound[1]));
+    return off * pixels <= allowed_;
 }
 
 double RateForecaster::covered() const {
@@ -123,7 +158,9 @@ std::span<const sfsm::RateStep> RateForecaster::finish() {
         } else if (std::isfinite(out.motion_distance)) {
             out.state = sfsm::State::slowed;
         }
-        most_loss = out.loss = std::max(most_loss, sum.error / pixels_);
+        most_loss = out.loss = std::max(most_loss, rounded(sum.error / pixels_, 1e6));
+        out.splat_size = rounded(out.splat_size, 1e3);
+        out.motion_distance = rounded(out.motion_distance, 10);
     }
     return steps_;
 }
@@ -175,8 +212,10 @@ void RateForecaster::price_row(const Row& row, std::size_t kind, int place, bool
         const Bin& of = row.bins[index];
         if (of.people == 0) continue;
         const auto people = static_cast<double>(of.people);
-        const double as_splats = is_block ? 1 - share_above(bin, splat_to) : 0;
-        const double as_mesh = (1 - as_splats) * share_above(bin, mesh_from);
+        const auto surface = static_cast<float>(of.surface / people);
+        const float least = least_samples(kind, surface);
+        const double as_splats = is_block && may_be_splat(kind, surface) ? 1 - share_above(bin, splat_to) : 0;
+        const double as_mesh = (1 - as_splats) * (least > choices.most_samples() ? 1 : share_above(bin, mesh_from));
         const double as_points = 1 - as_splats - as_mesh;
         sum.triangles += as_mesh * people * static_cast<double>(mesh[sfsm::WorkKind::triangle]);
         sum.singles += as_mesh * people * static_cast<double>(mesh[sfsm::WorkKind::single]);
@@ -188,7 +227,7 @@ void RateForecaster::price_row(const Row& row, std::size_t kind, int place, bool
             sum.simplified = true;
         }
         if (as_points > 0) {
-            const auto demand = static_cast<float>(of.surface / people / (spacing * spacing));
+            const float demand = std::max(surface / (sizes.spacing * sizes.spacing), least);
             const figures::Level& level = choices.all()[choices.samples_at(demand)].level;
             const double count =
                 level.by_ones ? std::clamp<double>(demand, std::min(figures::fewest_points, level.count), level.count)
@@ -199,6 +238,12 @@ void RateForecaster::price_row(const Row& row, std::size_t kind, int place, bool
             sum.simplified = true;
         }
     }
+}
+
+bool RateForecaster::may_wait(const Kind& kind, std::size_t role, const Motion& motion, int period) const {
+    if (!std::isfinite(allowed_)) return true;
+    const float off = kind.bounds->motion.single[role][static_cast<std::size_t>(period)] * motion.largest_pixels;
+    return static_cast<double>(off) <= allowed_;
 }
 
 // The period of least cost from `from` on: error that a late surface makes, against updates.
@@ -213,6 +258,7 @@ int RateForecaster::best_period(const Kind& kind, std::size_t role, const Motion
     double least = cost(from);
     for (const int period : periods) {
         if (period <= from) continue;
+        if (!may_wait(kind, role, motion, period)) break;
         const double here = cost(period);
         if (here < least) least = here, best = period;
     }
@@ -240,6 +286,7 @@ void RateForecaster::price_motion(int step, sfsm::RateStep& out, double& error) 
 }
 
 void RateForecaster::find_paces(double rate, Paces& paces) const {
+    paces.all().resize(kinds_.size());
     for (std::size_t kind = 0; kind < kinds_.size(); ++kind)
         for (std::size_t role = 0; role < scene::role_count; ++role)
             for (int place = 0; place < Paces::places; ++place) {

@@ -8,8 +8,10 @@
 #include <span>
 #include <vector>
 
+#include "render/error_bounds.h"
 #include "render/exchange.h"
 #include "render/staleness.h"
+#include "render/view.h"
 #include "scene/crowd.h"
 #include "sfsm/forecast.h"
 
@@ -40,13 +42,20 @@ public:
     struct Kind {
         Exchange::Kind exchanged;
         std::array<Staleness, scene::role_count> staleness{};  // by role
+        const ErrorBounds* bounds = nullptr;
     };
 
     RateForecaster() = default;
-    // `way` must outlive it.
-    RateForecaster(std::vector<Kind> kinds, const figures::Way& way);
+    // `way` must outlive it. `max_error` [px] > 0: that nobody's surface may be off by more, moved or covered too late
+    // or too coarsely; infinite for no such limit.
+    RateForecaster(std::vector<Kind> kinds, const figures::Way& way, double max_error);
 
     const Exchange& exchange() const { return exchange_; }
+    const figures::Choices& choices(std::size_t kind) const { return *kinds_[kind].exchanged.choices; }
+    bool has_cells() const { return way_->has_cells; }
+    // What max_error asks of somebody whose surface [px^2] is that large.
+    float least_samples(std::size_t kind, float surface) const;
+    bool may_be_splat(std::size_t kind, float surface) const;
 
     // People who are alike.
     struct Group {
@@ -62,8 +71,8 @@ public:
         float on_screen = 1;         // share of a silhouette that is on the screen
     };
 
-    // Forgets the last frame, whose picture has so many pixels; people come nearer than `range` [m].
-    void begin(double pixels, float range);
+    // Forgets the last frame.
+    void begin(const View& view);
     void add(const Group& group);
     // Of all who were added; valid until the next begin().
     std::span<const sfsm::RateStep> finish();
@@ -90,6 +99,7 @@ private:
         std::int64_t people = 0;
         double shown = 0;  // [px]
         float nearest = 0, pixels_per_metre = 0;
+        float largest_pixels = 0;  // that a model unit of somebody covers
     };
     struct Sum {
         double triangles = 0, points = 0, singles = 0, splats = 0, error = 0;
@@ -110,14 +120,15 @@ private:
     void price_row(const Row& row, std::size_t kind, int place, bool is_block, const Exchange::Terms& terms,
                    Sum& sum) const;
     void price_motion(int step, sfsm::RateStep& out, double& error);
+    bool may_wait(const Kind& kind, std::size_t role, const Motion& motion, int period) const;
     int best_period(const Kind& kind, std::size_t role, const Motion& motion, double rate, int from) const;
 
     std::vector<Kind> kinds_;
     const figures::Way* way_ = nullptr;
     Exchange exchange_;
     std::vector<std::array<double, size_bins>> mesh_errors_, splat_errors_;  // by kind
+    double max_error_ = 0, allowed_ = 0;  // [px] of a person's surface in the middle of the picture
     double pixels_ = 1;
-    float range_ = 1;
     double shown_ = 0;  // [px]
     std::vector<Row> rows_;
     std::vector<std::array<std::array<Motion, Paces::places>, scene::role_count>> motion_;  // by kind

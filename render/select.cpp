@@ -49,6 +49,7 @@ Selector::Selector(const scene::Crowd& crowd, std::span<const scene::CastMember>
     }
     know_blocks();
     const auto staleness = measure_staleness(crowd_, cast_, figures_);
+    bounds_ = measure_error_bounds(crowd_, cast_, figures_);
     const auto spreads = find_spreads();
     std::vector<Forecaster::Kind> priced;
     std::vector<RateForecaster::Kind> exchanged;
@@ -58,11 +59,11 @@ Selector::Selector(const scene::Crowd& crowd, std::span<const scene::CastMember>
         const motion::PoseTable& poses = *figures_[i].poses;
         exchanged.push_back(
             {{&kinds_[i].choices, static_cast<double>(poses.area), static_cast<double>(poses.rest_height)},
-             staleness[i]});
+             staleness[i],
+             &bounds_[i]});
     }
     forecaster_ = Forecaster(std::move(priced), *options_.way, options_.density);
-    rates_ = RateForecaster(std::move(exchanged), *options_.way);
-    paces_ = Paces(kinds_.size());
+    rates_ = RateForecaster(std::move(exchanged), *options_.way, options_.max_error);
 }
 
 void Selector::know_blocks() {
@@ -233,7 +234,7 @@ void Selector::find_range() {
 void Selector::forecast() {
     find_shares();
     forecaster_.begin(survey_.range);
-    rates_.begin(static_cast<double>(view_.width) * view_.height, survey_.range);
+    rates_.begin(view_);
     for (const Seen& seen : seen_) {
         if (seen.small) {
             forecast_as_one(seen);
@@ -310,37 +311,29 @@ std::span<const Selector::Group> Selector::groups_of(const Seen& seen) const {
 }
 
 const Frame& Selector::select(const sfsm::Decision& decision, std::int64_t last_tick) {
-    if (decision.rate > 0) {
-        rates_.exchange().find_terms(decision.rate, rates_.cell_of(decision.rate), terms_);
-        rates_.find_paces(decision.rate, paces_);
-    }
-    find_far_blocks(decision);
+    if (!(decision.rate > 0)) return select(KnobRule(decision, forecaster_, options_.theta), last_tick);
+    rate_rule_.decide(decision.rate, options_.density);
+    return select(rate_rule_, last_tick);
+}
+
+const Frame& Selector::select(const DrawingRule& rule, std::int64_t last_tick) {
+    find_far_blocks(rule);
     make_room();
-    const Rules rules{decision, last_tick};
-    for_each_seen([&](Seen& seen) { seen.is_far ? choose_as_one(seen, rules) : choose(seen, rules); });
+    frame_.splat_size = rule.splat_size();
+    points_errors_ = figures::PointsErrors(options_.way->error, cell());
+    for_each_seen(
+        [&](Seen& seen) { seen.is_far ? choose_as_one(seen, rule, last_tick) : choose(seen, rule, last_tick); });
+    sum_up();
     frame_.far_people = {&crowd_, turns_.data(), far_keys_.data()};
     frame_.view = view_;
-    frame_.splat_size = decision.rate > 0 ? splat_size_of(terms_) : decision.splat_size;
-    sum_up();
     return frame_;
 }
 
-// S that makes cells as large as the terms have them or, where points have a size, as large as their spacing asks for.
-double Selector::splat_size_of(const Exchange::Terms& terms) const {
-    const double pixels = options_.way->has_cells ? static_cast<double>(terms.cell) / figures::cell_share
-                                                  : std::sqrt(static_cast<double>(options_.density)) * terms.spacing;
-    return std::min(pixels, sfsm::max_splat_size);
-}
-
 // Where one splat serves people of mean size of each kind.
-void Selector::find_far_blocks(const sfsm::Decision& decision) {
+void Selector::find_far_blocks(const DrawingRule& rule) {
     for (Seen& seen : seen_)
-        seen.is_far = seen.small && (decision.rate > 0 || decision.splat_size > 0) &&
-                      std::ranges::all_of(groups_of(seen), [&](const Group& group) {
-                          const float demand = mean_demand_of(seen, group);
-                          if (!(decision.rate > 0))
-                              return forecaster_.serves_block(group.character, demand, decision.splat_size);
-                          return demand / options_.density <= terms_.sizes(group.character, seen.place).splat_to;
+        seen.is_far = seen.small && std::ranges::all_of(groups_of(seen), [&](const Group& group) {
+                          return rule.is_splat(subject_of(group, seen));
                       });
 }
 
@@ -355,21 +348,24 @@ void Selector::make_room() {
     frame_.far_blocks.resize(far_blocks);
 }
 
-void Selector::choose(Seen& seen, const Rules& rules) {
+void Selector::choose(Seen& seen, const DrawingRule& rule, std::int64_t last_tick) {
     seen.work = {};
-    seen.error = 0;
+    seen.errors = {};
     seen.slowed = seen.simplified = false;
     Person* drawn = frame_.people.data() + seen.first_drawn;
-    for_each_visible(seen, [&](std::size_t person, float depth) { *drawn++ = choose(person, depth, rules, seen); });
+    for_each_visible(seen,
+                     [&](std::size_t person, float depth) { *drawn++ = choose(person, depth, rule, last_tick, seen); });
 }
 
 // All of them move in the same frames, and their keys, which are a good part of a second apart, are found every few
 // ticks.
-void Selector::choose_as_one(Seen& seen, const Rules& rules) {
+void Selector::choose_as_one(Seen& seen, const DrawingRule& rule, std::int64_t last_tick) {
     const scene::CrowdBlock& block = crowd_.blocks[seen.block];
     const float depth = std::max(view_.depth(relative(block.box.center(), seen.eye)), near_plane);
-    const auto [period, due] = moves_of(block.first, depth, rules);
-    constexpr int ticks_a_key = 8;
+    Subject subject = subject_of(groups_of(seen).front(), seen);
+    subject.depth = depth;
+    subject.pixels_per_metre = view_.pixels_per_metre(depth);
+    const auto [period, due] = moves_of(block.first, subject, rule);
     const std::int64_t key_tick = motion::due_tick(due, ticks_a_key, crowd_.hash[block.first]);
     std::int64_t& known = blocks_[seen.block].key_tick;
     if (key_tick != known) {
@@ -380,7 +376,11 @@ void Selector::choose_as_one(Seen& seen, const Rules& rules) {
         known = key_tick;
     }
     seen.work = {};
-    seen.work[sfsm::WorkKind::motion_update] = due > rules.last_tick ? seen.visible : 0;
+    seen.work[sfsm::WorkKind::motion_update] = due > last_tick ? seen.visible : 0;
+    seen.errors = {};
+    for (const Group& group : groups_of(seen))
+        add_errors(group, subject_of(group, seen), period,
+                   static_cast<double>(group.people) * seen.visible / block.count, seen);
     seen.slowed = period > 1;
     seen.simplified = true;
     frame_.far_blocks[seen.first_drawn] = {seen.block, depth, key_tick};
@@ -388,14 +388,80 @@ void Selector::choose_as_one(Seen& seen, const Rules& rules) {
 
 void Selector::sum_up() {
     frame_.work = around_.work;
+    Errors all;
     bool is_slowed = false, is_simplified = false;
     for (const Seen& seen : seen_) {
         frame_.work += seen.work;
         frame_.work[sfsm::WorkKind::person] += seen.visible;
+        all.expected += seen.errors.expected;
+        all.motion_px = std::max(all.motion_px, seen.errors.motion_px);
+        all.splat_px = std::max(all.splat_px, seen.errors.splat_px);
         is_slowed |= seen.slowed;
         is_simplified |= seen.simplified;
     }
     frame_.state = is_simplified ? sfsm::State::points : is_slowed ? sfsm::State::slowed : sfsm::State::original;
+    frame_.max_motion_px = all.motion_px;
+    frame_.max_splat_px = all.splat_px;
+    frame_.expected_flip = survey_.background_error + all.expected / (static_cast<double>(view_.width) * view_.height);
+}
+
+// [px] Of the frame.
+double Selector::cell() const {
+    return options_.way->has_cells ? std::max(1.0, figures::cell_share * frame_.splat_size) : 1;
+}
+
+// [px] At most, on the screen, of somebody who reaches so far [m] from their middle, for what is off by so much [m].
+// Aside of the picture's middle it is more.
+double Selector::pixels_of(float off, float radius, float depth) const {
+    const float nearest = std::max(depth - radius - off, near_plane);
+    const float aside = std::hypot(1.0f, view_.tan_half_x, view_.tan_half_y);
+    return static_cast<double>(aside * off * view_.pixels_per_metre(nearest));
+}
+
+void Selector::add_errors(std::size_t number, const Person& person, const Subject& subject, int period,
+                          Seen& seen) const {
+    const figures::Way& way = *options_.way;
+    const ErrorBounds& bounds = bounds_[person.character];
+    const float scale = person.instance.scale, radius = scale * kinds_[person.character].radius;
+    const float surface = surface_of(number, person.depth);
+    double error = 0;
+    if (way.representations[person.representation].is_mesh) {
+        const float height = scale * figures_[person.character].poses->rest_height * subject.pixels_per_metre;
+        error = way.error.of_mesh(static_cast<double>(height));
+    } else {
+        error = points_errors_.at(std::sqrt(surface / static_cast<float>(person.count)));
+        seen.errors.splat_px = std::max(seen.errors.splat_px,
+                                        pixels_of(scale * bounds.covering.radius(person.count), radius, person.depth));
+    }
+    if (period > 1) {
+        const auto role = static_cast<std::size_t>(subject.role), index = static_cast<std::size_t>(period);
+        error += way.error.of_motion(
+            static_cast<double>(kinds_[person.character].staleness[role][index] * subject.pixels_per_metre));
+        seen.errors.motion_px =
+            std::max(seen.errors.motion_px, pixels_of(scale * bounds.motion.single[role][index], radius, person.depth));
+    }
+    seen.errors.expected +=
+        error * static_cast<double>(0.25f * surface * seen.share * on_screen(seen, number, surface));
+}
+
+void Selector::add_errors(const Group& group, const Subject& subject, int period, double people, Seen& seen) const {
+    const figures::Way& way = *options_.way;
+    const Kind& kind = kinds_[group.character];
+    const ErrorBounds& bounds = bounds_[group.character];
+    const Block& block = blocks_[seen.block];
+    const auto role = static_cast<std::size_t>(group.role), index = static_cast<std::size_t>(period);
+    const double height = static_cast<double>(std::sqrt(kind.mean_square) *
+                                              figures_[group.character].poses->rest_height * subject.pixels_per_metre);
+    const double error =
+        way.error.of_splat(height) * way.error.times_in_cells(cell()) +
+        way.error.of_motion(static_cast<double>(kind.staleness[role][index] * subject.pixels_per_metre));
+    seen.errors.expected += people * error * static_cast<double>(0.25f * subject.surface * seen.share);
+    const motion::Bounds& box = crowd_.blocks[seen.block].box;
+    const float nearest = std::max(depth_range(view_.from(crowd_.blocks[seen.block].origin), box).nearest, near_plane);
+    const float scale = block.tallest / figures_[group.character].poses->rest_height;
+    seen.errors.splat_px = std::max(seen.errors.splat_px, pixels_of(scale * bounds.size, 0.0f, nearest));
+    seen.errors.motion_px =
+        std::max(seen.errors.motion_px, pixels_of(scale * bounds.motion.far[role][index], 0.0f, nearest));
 }
 
 float Selector::scale_of(std::size_t person) const {
@@ -439,13 +505,25 @@ float Selector::surface_of(std::size_t person, float depth) const {
     return figures_[crowd_.character[person]].poses->area * pixels * pixels;
 }
 
-Selector::Moves Selector::moves_of(std::size_t person, float depth, const Rules& rules) const {
-    const sfsm::Decision& decision = rules.decision;
-    int period = 1;
-    if (rules.by_rate())
-        period = paces_.period(crowd_.character[person], crowd_.role[person], view_.pixels_per_metre(depth));
-    else if (decision.state != sfsm::State::original)
-        period = motion::update_period(depth, static_cast<float>(decision.motion_distance), options_.theta);
+Subject Selector::subject_of(std::size_t person, float depth, const Seen& seen) const {
+    const float demand = demand_at_unit_splat(person, depth);
+    return {crowd_.character[person],
+            crowd_.role[person],
+            depth,
+            view_.pixels_per_metre(depth),
+            demand / options_.density,
+            demand,
+            seen.place};
+}
+
+Subject Selector::subject_of(const Group& group, const Seen& seen) const {
+    const float depth = depth_of(seen, group), demand = mean_demand_of(seen, group);
+    return {group.character,           group.role, depth,     view_.pixels_per_metre(depth),
+            demand / options_.density, demand,     seen.place};
+}
+
+Selector::Moves Selector::moves_of(std::size_t person, const Subject& subject, const DrawingRule& rule) const {
+    const int period = rule.period_of(subject);
     return {period, motion::due_tick(tick_, period, crowd_.hash[person])};
 }
 
@@ -456,47 +534,35 @@ std::uint32_t Selector::pose_of(std::size_t person, std::int64_t tick) {
     return static_cast<std::uint32_t>(poses.pose_at(action.clip, action.clip_tick));
 }
 
-// Which choice, and how many samples are asked of it.
-std::pair<std::uint32_t, float> Selector::shape_of(std::size_t person, float demand, const Rules& rules,
-                                                   const Seen& seen) const {
-    const figures::Choices& choices = kinds_[crowd_.character[person]].choices;
-    if (rules.by_rate()) {
-        const Exchange::Terms::Sizes sizes = terms_.sizes(crowd_.character[person], seen.place);
-        const float surface = demand / options_.density;
-        const float samples = surface / (sizes.spacing * sizes.spacing);
-        return {surface < sizes.mesh_from ? choices.samples_at(samples) : choices.exact(), samples};
-    }
-    const auto splat_area = static_cast<float>(rules.decision.splat_size * rules.decision.splat_size);
-    if (!(splat_area > 0)) return {choices.exact(), 0.0f};
-    return {choices.at(demand / splat_area), demand / splat_area};
-}
-
 // Where the person is now decides whether they are seen and how often they move; both change little in a period.
-Person Selector::choose(std::size_t person, float depth, const Rules& rules, Seen& seen) {
+Person Selector::choose(std::size_t person, float depth, const DrawingRule& rule, std::int64_t last_tick, Seen& seen) {
     const std::size_t character = crowd_.character[person];
     const scene::CastMember& member = cast_[character];
     const motion::PoseTable& poses = *figures_[character].poses;
-    const auto [period, due] = moves_of(person, depth, rules);
-    const auto [choice, samples] = shape_of(person, demand_at_unit_splat(person, depth), rules, seen);
+    const Subject subject = subject_of(person, depth, seen);
+    const auto [period, due] = moves_of(person, subject, rule);
+    const auto [choice, samples] = rule.shape_of(subject);
     const auto& [representation, level] = kinds_[character].choices.all()[choice];
     const figures::Part part = figures::part_of(level, samples);
     const std::uint32_t pose = pose_of(person, due);
     const Spot spot = spot_of(seen, person, due);
     const bool stands = crowd_.role[person] != scene::Role::spectator || !member.sits;
     seen.work += part.work;
-    seen.work[sfsm::WorkKind::motion_update] += due > rules.last_tick;
+    seen.work[sfsm::WorkKind::motion_update] += due > last_tick;
     seen.slowed |= period > 1;
     seen.simplified |= !options_.way->representations[representation].is_mesh;
-    return {{spot.position, scale_of(person), spot.turn, crowd_.palette[person]},
-            static_cast<std::uint32_t>(character),
-            representation,
-            level.first,
-            part.count,
-            part.last_share,
-            pose,
-            kinds_[character].first_batch + choice * static_cast<std::uint32_t>(poses.pose_count) + pose,
-            depth,
-            stands ? contact_reach * crowd_.height[person] : 0.0f};
+    const Person drawn{{spot.position, scale_of(person), spot.turn, crowd_.palette[person]},
+                       static_cast<std::uint32_t>(character),
+                       representation,
+                       level.first,
+                       part.count,
+                       part.last_share,
+                       pose,
+                       kinds_[character].first_batch + choice * static_cast<std::uint32_t>(poses.pose_count) + pose,
+                       depth,
+                       stands ? contact_reach * crowd_.height[person] : 0.0f};
+    add_errors(person, drawn, subject, period, seen);
+    return drawn;
 }
 
 }  // namespace render

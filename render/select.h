@@ -15,9 +15,11 @@
 #include "figures/splats.h"
 #include "motion/schedule.h"
 #include "render/crowding.h"
+#include "render/error_bounds.h"
 #include "render/forecaster.h"
 #include "render/frame.h"
 #include "render/rate_forecaster.h"
+#include "render/rules.h"
 #include "render/surroundings.h"
 #include "scene/crowd.h"
 #include "scene/remembered_acts.h"
@@ -33,6 +35,9 @@ struct SelectOptions {
     float density = 1.2f;
     // As what people can be drawn: of all levels that serve a person, the cheapest is. Must outlive the selector.
     const figures::Way* way = &figures::by_opengl();
+    // [px] > 0: by rate, nobody's surface is drawn farther from where it is than that, moved too late or covered too
+    // coarsely.
+    double max_error = std::numeric_limits<double>::infinity();
 };
 
 // What a view shows, before anything is decided about it.
@@ -51,6 +56,7 @@ public:
     // All must outlive the selector. `cast` and `figures` in the order of Crowd::character.
     Selector(const scene::Crowd& crowd, std::span<const scene::CastMember> cast,
              std::span<const figures::Figure> figures, SelectOptions options = {});
+    Selector(const Selector&) = delete;  // parts of it refer to others
 
     // Finds the visible people at `tick`, and what drawing them would cost. `around`: of that view; its work is counted
     // into the forecast and into the frames.
@@ -59,7 +65,15 @@ public:
     // The surveyed people under `decision`; those whose motion was due since `last_tick` are counted as moved.
     const Frame& select(const sfsm::Decision& decision, std::int64_t last_tick);
 
+    // The same by any rule.
+    const Frame& select(const DrawingRule& rule, std::int64_t last_tick);
+
 private:
+    // What people are off.
+    struct Errors {
+        double expected = 0;                 // [px] FLIP, summed over pixels
+        double motion_px = 0, splat_px = 0;  // at most: Frame's
+    };
     // A block that may show.
     struct Seen {
         std::uint32_t block = 0;                        // into Crowd::blocks
@@ -75,7 +89,7 @@ private:
         std::uint32_t first_drawn = 0;  // into Frame::people; of one that is far, into Frame::far_blocks
         // Of its visible people together, as they were chosen last.
         sfsm::Work work;
-        double error = 0;  // [px] expected: FLIP, summed over pixels
+        Errors errors;
         bool slowed = false, simplified = false;
     };
     // What is known of a character beforehand.
@@ -136,22 +150,19 @@ private:
         int period;
         std::int64_t due;
     };
-    // What is decided of a frame.
-    struct Rules {
-        const sfsm::Decision& decision;
-        std::int64_t last_tick;
-        bool by_rate() const { return decision.rate > 0; }
-    };
-    Moves moves_of(std::size_t person, float depth, const Rules& rules) const;
-    std::pair<std::uint32_t, float> shape_of(std::size_t person, float demand, const Rules& rules,
-                                             const Seen& seen) const;
+    Moves moves_of(std::size_t person, const Subject& subject, const DrawingRule& rule) const;
+    Subject subject_of(std::size_t person, float depth, const Seen& seen) const;
+    Subject subject_of(const Group& group, const Seen& seen) const;
     std::uint32_t pose_of(std::size_t person, std::int64_t tick);
-    void find_far_blocks(const sfsm::Decision& decision);
-    double splat_size_of(const Exchange::Terms& terms) const;
+    void find_far_blocks(const DrawingRule& rule);
     void make_room();
-    void choose(Seen& seen, const Rules& rules);
-    void choose_as_one(Seen& seen, const Rules& rules);
-    Person choose(std::size_t person, float depth, const Rules& rules, Seen& seen);
+    void choose(Seen& seen, const DrawingRule& rule, std::int64_t last_tick);
+    void choose_as_one(Seen& seen, const DrawingRule& rule, std::int64_t last_tick);
+    Person choose(std::size_t person, float depth, const DrawingRule& rule, std::int64_t last_tick, Seen& seen);
+    void add_errors(std::size_t number, const Person& person, const Subject& subject, int period, Seen& seen) const;
+    void add_errors(const Group& group, const Subject& subject, int period, double people, Seen& seen) const;
+    double cell() const;
+    double pixels_of(float off, float radius, float depth) const;
     float scale_of(std::size_t person) const;  // [m / model unit]
     float demand_at_unit_splat(std::size_t person, float depth) const;
     float surface_of(std::size_t person, float depth) const;  // [px^2]
@@ -185,11 +196,12 @@ private:
     std::unique_ptr<float[]> depth_;
     Forecaster forecaster_;
     RateForecaster rates_;
-    Exchange::Terms terms_;  // of the decided rate, as the paces
-    Paces paces_;
+    RateRule rate_rule_{rates_};
+    std::vector<ErrorBounds> bounds_;  // by character
     Survey survey_;
 
-    std::vector<std::uint8_t> far_keys_;  // Frame::far_people's
+    figures::PointsErrors points_errors_;  // in the frame's cells
+    std::vector<std::uint8_t> far_keys_;   // Frame::far_people's
     Frame frame_;
 };
 
