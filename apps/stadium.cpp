@@ -65,6 +65,7 @@ public:
         controller_ = sfsm::make_controller(options.law, canvas_.way().drawing);
         render::SelectOptions select;
         select.way = &canvas_.way();
+        if (options_.max_error) select.max_error = *options_.max_error;
         selector_.emplace(stage_->place.crowd, stage_->cast, stage_->figures(), select);
         warm_up();
         stage_->place.crowd.filled_tick = std::llround(options.pour_in * motion::ticks_per_second);
@@ -106,6 +107,7 @@ public:
             {"size", std::to_string(width_) + "x" + std::to_string(height_)},
             {"splat_px", options_.splat_size ? sfsm::number_text(*options_.splat_size) : "default"},
             {"motion_distance_m", options_.motion_distance ? sfsm::number_text(*options_.motion_distance) : "default"},
+            {"max_error_px", options_.max_error ? sfsm::number_text(*options_.max_error) : "none"},
             {"step", options_.fixed_step || !canvas_.has_window() ? "1/60 s" : "wall clock"},
             {"seed", std::to_string(options_.seed)}};
     }
@@ -158,6 +160,9 @@ private:
         const auto time = timer.end();
         row.work = drawn.work;
         row.drawn_state = drawn.state;
+        row.max_motion_error_px = drawn.max_motion_px;
+        row.max_splat_error_px = drawn.max_splat_px;
+        row.predicted_flip = drawn.expected_flip;
         rows_.push_back(row);
         last_tick_ = clock_.tick();
         return time;

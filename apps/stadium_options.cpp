@@ -104,6 +104,10 @@ void add_control_options(CLI::App& app, StadiumOptions& options) {
     app.add_option("--motion-distance", options.motion_distance,
                    "D of --state 1 or 2 [m] (default 5/6 and 2/3 of the farthest person's depth)")
         ->check(number_over(0, 1e6));
+    app.add_option("--max-error", options.max_error,
+                   "Pixels that nobody's surface may be off by, late or uncovered; time goes where it must. Only with "
+                   "the default law")
+        ->check(number_over(0, 1e6));
 }
 
 void add_output_options(CLI::App& app, StadiumOptions& options) {
@@ -142,6 +146,10 @@ void check(const StadiumOptions& options) {
         throw wrong_argument("--splat-px", "another state", "--state 2, whose splats it sizes");
     if (options.motion_distance && (!options.state || options.state == sfsm::State::original))
         throw wrong_argument("--motion-distance", "another state", "--state 1 or --state 2, which it is part of");
+    const std::string_view default_law = sfsm::law_names().front();
+    if (options.max_error && (options.state || options.law != default_law))
+        throw wrong_argument("--max-error", options.state ? "a fixed state" : "law " + options.law,
+                             "the law that it bounds: " + std::string(default_law));
     if ((options.png_every > 0) != !options.png_directory.empty())
         throw wrong_argument("--png-every", "one of --png-every and --png-dir", "both or neither");
     if (!scene::is_preset(options.camera) && std::filesystem::path(options.camera).extension() != ".json")

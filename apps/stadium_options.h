@@ -28,6 +28,7 @@ struct StadiumOptions {
     std::optional<sfsm::State> state;               // empty: the law decides
     std::optional<double> splat_size;               // [px] of a fixed state 2
     std::optional<double> motion_distance;          // [m] of a fixed state 1 or 2
+    std::optional<double> max_error;                // [px] of motion and of splats, whatever time it takes
     double pour_in = 0;                             // [s] in which people come in; 0: all are there
     std::filesystem::path cache = default_cache();  // of point models; empty: none
     std::string camera = "roam";                    // a preset or a path file

@@ -51,6 +51,12 @@ void print_summary(const sfsm::Summary& summary, const std::map<std::string, std
     std::printf("frames        state 0: %lld   state 1: %lld   state 2: %lld\n",
                 static_cast<long long>(summary.state_frames[0]), static_cast<long long>(summary.state_frames[1]),
                 static_cast<long long>(summary.state_frames[2]));
+    std::printf("error         motion %.2f px at most   splats %.2f px at most   FLIP %.4f expected, %.4f at most\n",
+                summary.max_motion_error_px, summary.max_splat_error_px, summary.predicted_flip,
+                summary.worst_predicted_flip);
+    if (const std::string& bound = settings.at("max_error_px"); bound != "none" && summary.out_of_reach_frames > 0)
+        std::printf("time let go   in %lld frames: nothing within --max-error %s was expected to meet the target\n",
+                    static_cast<long long>(summary.out_of_reach_frames), bound.c_str());
     std::printf("memory        %s at most\n", bytes_text(peak_memory()).c_str());
 }
 

@@ -279,8 +279,10 @@ float Selector::on_screen(const Seen& seen, std::size_t person, float surface) c
         const float low = std::max(at - 0.5f * side, -0.5f * picture), end = std::min(at + 0.5f * side, 0.5f * picture);
         return std::max(end - low, 0.0f) / side;
     };
-    return overlap(pixels * glm::dot(view_.right, middle), wide, static_cast<float>(view_.width)) *
-           overlap(pixels * glm::dot(view_.up, middle), high, static_cast<float>(view_.height));
+    constexpr float least = 0.05f;  // an arm may reach into it
+    return std::max(overlap(pixels * glm::dot(view_.right, middle), wide, static_cast<float>(view_.width)) *
+                        overlap(pixels * glm::dot(view_.up, middle), high, static_cast<float>(view_.height)),
+                    least);
 }
 
 // Those of its people who show are shared out over its groups as all of them are.

@@ -45,6 +45,22 @@ void append_string(std::string& out, std::string_view text) {
     out += '"';
 }
 
+// Where there are none the largest stays NaN: std::fmax leaves it out.
+void add_promises(Summary& summary, std::span<const TraceRow> rows) {
+    double flip = 0;
+    std::int64_t promised = 0;
+    for (const TraceRow& row : rows) {
+        summary.max_motion_error_px = std::fmax(summary.max_motion_error_px, row.max_motion_error_px);
+        summary.max_splat_error_px = std::fmax(summary.max_splat_error_px, row.max_splat_error_px);
+        summary.worst_predicted_flip = std::fmax(summary.worst_predicted_flip, row.predicted_flip);
+        if (row.predicted_ms > 1.05 * row.target_ms) ++summary.out_of_reach_frames;
+        if (std::isnan(row.predicted_flip)) continue;
+        flip += row.predicted_flip;
+        ++promised;
+    }
+    if (promised > 0) summary.predicted_flip = flip / static_cast<double>(promised);
+}
+
 using Settings = std::map<std::string, std::string>;
 
 // JSON has no infinity, which the mean of huge times may reach.
@@ -80,7 +96,9 @@ Summary summarize(std::span<const TraceRow> rows) {
     std::vector<FrameTime> frames;
     frames.reserve(rows.size());
     for (const TraceRow& row : rows) frames.push_back({row.target_ms, row.frame_ms, row.decision.state});
-    return summarize_times(frames);
+    Summary summary = summarize_times(frames);
+    add_promises(summary, rows);
+    return summary;
 }
 
 Summary summarize_times(std::span<const FrameTime> frames) {
@@ -124,13 +142,18 @@ std::string summary_json(const Summary& summary, const Settings& settings) {
         {"within_5pct", summary.within_5pct},
         {"within_10pct", summary.within_10pct},
         {"over_5pct", summary.over_5pct},
+        {"max_motion_error_px", summary.max_motion_error_px},
+        {"max_splat_error_px", summary.max_splat_error_px},
+        {"predicted_flip", summary.predicted_flip},
+        {"worst_predicted_flip", summary.worst_predicted_flip},
     };
     for (const auto& [name, value] : figures) append_figure(out, name, value);
     out += "  \"state_frames\": [";
     append_number(out, summary.state_frames[0]);
     append_number(out += ", ", summary.state_frames[1]);
     append_number(out += ", ", summary.state_frames[2]);
-    return out += "]\n}\n";
+    append_number(out += "],\n  \"out_of_reach_frames\": ", summary.out_of_reach_frames);
+    return out += "\n}\n";
 }
 
 }  // namespace sfsm

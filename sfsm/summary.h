@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <span>
 #include <string>
@@ -19,6 +20,13 @@ struct Summary {
     double within_5pct = 0, within_10pct = 0;    // shares of frames with |T - t| <= 5 % / 10 % of t
     double over_5pct = 0;                        // share of frames with T > 1.05 t
     std::array<std::int64_t, 3> state_frames{};  // of the frames counted in `frames`
+    std::int64_t out_of_reach_frames = 0;        // of all: those that the law expected to take over 1.05 t
+
+    // What was kept: TraceRow's promises, of all frames whose renderer made them; NaN without any.
+    double max_motion_error_px = std::numeric_limits<double>::quiet_NaN();  // the largest
+    double max_splat_error_px = std::numeric_limits<double>::quiet_NaN();
+    double predicted_flip = std::numeric_limits<double>::quiet_NaN();  // mean
+    double worst_predicted_flip = std::numeric_limits<double>::quiet_NaN();
 };
 
 // Of the measured frames: those with a finite time and a finite target over 0. Zeros where there are none. Percentiles

@@ -29,6 +29,12 @@ struct TraceRow {
     std::int64_t hidden = 0;           // people who are not drawn as the structure hides them
     std::optional<State> drawn_state;  // what became of the decision, if the renderer said so: at most its state
 
+    // What the renderer promises of the frame; NaN: it can't say.
+    double max_motion_error_px =
+        std::numeric_limits<double>::quiet_NaN();                          // of anybody's surface, as they moved before
+    double max_splat_error_px = std::numeric_limits<double>::quiet_NaN();  // of it to the nearest that is drawn of it
+    double predicted_flip = std::numeric_limits<double>::quiet_NaN();      // mean over the frame, [0, 1]
+
     // The forecast given to the controller before this frame; all empty if there was none.
     std::vector<Step> motion, shapes;
     std::vector<RateStep> rates;

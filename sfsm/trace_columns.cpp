@@ -318,6 +318,14 @@ constexpr auto columns_with(std::index_sequence<first...>, std::index_sequence<l
             "drawn_state", "",
             "2: somebody was drawn by less than their triangles; 1: somebody moved less often; 0: neither", optional),
         column<MaybeNumber, &Row::predicted_ms>("predicted_ms", "ms", "what the law expected of this frame", optional),
+        column<MaybeNumber, &Row::max_motion_error_px>(
+            "max_motion_error_px", "px", "at most so far is anybody drawn from where they are, as they moved before",
+            optional),
+        column<MaybeNumber, &Row::max_splat_error_px>(
+            "max_splat_error_px", "px", "at most so far is anybody's surface from the nearest that is drawn of it",
+            optional),
+        column<MaybeNumber, &Row::predicted_flip>("predicted_flip", "", "FLIP that was expected of the frame",
+                                                  optional),
         column<Rate, &Row::decision, &Decision::rate>(
             "rate", "px/piece", "what the next piece of work had to save to be drawn; 0: D and S decided", optional),
         column<Steps<AxisStep<WorkAxis::motion>>, &Row::motion>("motion_steps", "", "the forecast: its steps of D",
