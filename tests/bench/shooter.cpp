@@ -42,6 +42,10 @@ const render::Frame& Shooter::select(const sfsm::Decision& decision, std::int64_
     return selector_.select(decision, tick - 1);
 }
 
+const render::Frame& Shooter::select(const render::DrawingRule& rule, std::int64_t tick) {
+    return selector_.select(rule, tick - 1);
+}
+
 const render::Frame& Shooter::choose(const render::View& view, const sfsm::Decision& decision, std::int64_t tick) {
     survey(view, tick);
     return select(decision, tick);

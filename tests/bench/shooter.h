@@ -30,6 +30,7 @@ public:
     // The two steps of a frame before it is drawn; what they return is valid until the next.
     const render::Survey& survey(const render::View& view, std::int64_t tick);
     const render::Frame& select(const sfsm::Decision& decision, std::int64_t tick);
+    const render::Frame& select(const render::DrawingRule& rule, std::int64_t tick);
 
     // The frame, which is drawn when this returns.
     const render::Frame& shoot(const render::View& view, const sfsm::Decision& decision, std::int64_t tick);

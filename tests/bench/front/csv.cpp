@@ -1,5 +1,6 @@
 #include "tests/bench/front/csv.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
@@ -19,6 +20,12 @@ std::string rounded(double value, int decimals) {
     std::string out = text;
     if (out.front() == '-' && out.find_first_not_of("-0.") == std::string::npos) out.erase(0, 1);
     return out;
+}
+
+std::string six_figures(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", value);
+    return text;
 }
 
 // In quotes where it must be, each quote within them twice.
@@ -79,6 +86,12 @@ Column rounded_column(std::string name) {
             a_number};
 }
 
+// Nothing is known of it in older files.
+Column younger(Column column) {
+    column.is_younger = true;
+    return column;
+}
+
 template <auto at>
 Column error_column(std::string name) {
     return rounded_column<Kind::error, 5, at>(std::move(name));
@@ -129,6 +142,12 @@ void add_decision(std::vector<Column>& all) {
     all.push_back(
         rounded_column<Kind::name, 3, [](Row& row) -> double& { return row.decision.motion_distance; }>("D_m"));
     all.push_back(rounded_column<Kind::name, 3, [](Row& row) -> double& { return row.decision.splat_size; }>("S_px"));
+    all.push_back(
+        younger({"rate", Kind::name, [](const Row& row, std::size_t) { return six_figures(row.decision.rate); },
+                 [](Row& row, std::size_t, std::string_view text) {
+                     return read_number(text, row.decision.rate) && row.decision.rate >= 0;
+                 },
+                 0, "a number from 0"}));
     for (const sfsm::WorkEntry& entry : sfsm::work_table)
         all.push_back(
             {std::string(entry.column), Kind::count,
@@ -166,6 +185,11 @@ std::vector<Column> make_columns() {
     add_error<&Row::outline_px>(all, "outline_px");
     add_error<&Row::outline_worst_px>(all, "outline_worst_px");
     add_error<&Row::covering_px>(all, "covering_px");
+    const std::size_t younger_from = all.size();
+    add_error<&Row::expected_flip>(all, "expected_flip");
+    add_error<&Row::max_motion_px>(all, "max_motion_px");
+    add_error<&Row::max_splat_px>(all, "max_splat_px");
+    for (std::size_t i = younger_from; i < all.size(); ++i) all[i].is_younger = true;
     all.push_back(time_column<&Row::wall_ms>("wall_ms"));
     all.push_back(time_column<&Row::wall_low_ms>("wall_low_ms"));
     all.push_back(time_column<&Row::wall_high_ms>("wall_high_ms"));
@@ -257,13 +281,31 @@ std::vector<std::string> fields_of(std::string_view line, const Lines& lines) {
     return fields;
 }
 
-Row row_of(std::string_view line, const Lines& lines) {
+// Those that a file has: all of them in their order, but for younger ones.
+std::vector<const Column*> columns_of(std::string_view header, const Lines& lines) {
+    const std::vector<std::string> names = fields_of(header, lines);
+    std::vector<const Column*> found;
+    for (const Column& column : columns()) {
+        if (found.size() < names.size() && names[found.size()] == column.name)
+            found.push_back(&column);
+        else if (!column.is_younger)
+            break;
+    }
+    const auto is_there = [&](const Column& column) {
+        return column.is_younger || std::ranges::find(found, &column) != found.end();
+    };
+    if (found.size() != names.size() || !std::ranges::all_of(columns(), is_there))
+        lines.fail("found other columns, expected '" + header_line() + "'");
+    return found;
+}
+
+Row row_of(std::string_view line, std::span<const Column* const> of_file, const Lines& lines) {
     const std::vector<std::string> fields = fields_of(line, lines);
-    if (fields.size() != columns().size())
-        lines.fail("found " + std::to_string(fields.size()) + " values, expected " + std::to_string(columns().size()));
+    if (fields.size() != of_file.size())
+        lines.fail("found " + std::to_string(fields.size()) + " values, expected " + std::to_string(of_file.size()));
     Row row;
     for (std::size_t i = 0; i < fields.size(); ++i) {
-        const Column& column = columns()[i];
+        const Column& column = *of_file[i];
         if (!column.read(row, column.index, fields[i]))
             lines.fail(column.name + ": found " + sfsm::shown(fields[i]) + ", expected " +
                        std::string(column.expected));
@@ -308,9 +350,8 @@ Front from_csv(std::string_view text, const std::string& name, std::int64_t line
     Front front;
     Lines lines(text, name, lines_before);
     read_machine(lines, front.machine);
-    const std::string_view header = lines.next("the line of columns");
-    if (header != header_line()) lines.fail("found other columns, expected '" + header_line() + "'");
-    while (!lines.at_end()) front.rows.push_back(row_of(lines.next("a row"), lines));
+    const std::vector<const Column*> of_file = columns_of(lines.next("the line of columns"), lines);
+    while (!lines.at_end()) front.rows.push_back(row_of(lines.next("a row"), of_file, lines));
     return front;
 }
 

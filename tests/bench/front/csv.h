@@ -21,6 +21,7 @@ struct Column {
     bool (*read)(Row& row, std::size_t index, std::string_view text);
     std::size_t index = 0;      // of a kind of work
     std::string_view expected;  // what a text must be
+    bool is_younger = false;    // than files that are still read: without it the value is that of an empty row
 
     std::string text_of(const Row& row) const { return write(row, index); }
 };

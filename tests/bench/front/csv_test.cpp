@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <fstream>
 #include <limits>
+#include <sstream>
 
 namespace {
 
@@ -23,7 +26,7 @@ Row some_row() {
     row.target_ms = 16.6;
     row.density = 1.2;
     row.samples = 4;
-    row.decision = {sfsm::State::points, 12.5, 1.4};
+    row.decision = {sfsm::State::points, 12.5, 1.4, 0.00123};
     for (std::size_t i = 0; i < sfsm::work_kinds; ++i) row.work.counts[i] = 1000 + static_cast<std::int64_t>(i);
     row.frame = {0.01234, 31.5, 0.98765, -0.001, 0.002, -0.003, 0.004};
     row.crowd = {0.05, std::numeric_limits<double>::infinity(), 0.9, 0.1, 0.2, 0.3, 0.4};
@@ -34,6 +37,9 @@ Row some_row() {
     row.outline_px = 0.7;
     row.outline_worst_px = 2;
     row.covering_px = 3.25;
+    row.expected_flip = 0.0125;
+    row.max_motion_px = 0.75;
+    row.max_splat_px = 1.75;
     row.wall_ms = 4.125;
     row.wall_low_ms = 4;
     row.wall_high_ms = 5;
@@ -91,6 +97,35 @@ TEST(FrontCsv, EveryColumnHasAFieldOfItsOwn) {
     }
 }
 
+// As it was before some columns were there: those of these names cut out of every line.
+std::string without(const std::vector<std::string>& names, const Row& row) {
+    std::string header, line;
+    for (const auto& column : columns()) {
+        if (std::ranges::find(names, column.name) != names.end()) continue;
+        header += (header.empty() ? "" : ",") + column.name;
+        line += (line.empty() ? "" : ",") + column.text_of(row);
+    }
+    return bench::front::machine_lines({}) + header + '\n' + line + '\n';
+}
+
+TEST(FrontCsv, OlderFilesLackTheirYoungerColumnsAndNoOthers) {
+    Row row = some_row();
+    row.setting = "S = 2";
+    const Front read = from_csv(without({"rate", "expected_flip", "max_motion_px", "max_splat_px"}, row), "a.csv");
+    row.decision.rate = row.expected_flip = row.max_motion_px = row.max_splat_px = 0;
+    EXPECT_EQ(to_csv(read), to_csv({{}, {row}}));
+    EXPECT_EQ(from_csv(without({"max_splat_px"}, row), "a.csv").rows.size(), 1u);
+    for (const char* name : {"people", "flip", "process_ms"})
+        EXPECT_TRUE(refusal(without({name}, row)).starts_with("a.csv:5: found other columns, expected")) << name;
+}
+
+TEST(FrontCsv, TheFrontThatWasKeptIsRead) {
+    std::ifstream file(GRANDSTAND_KEPT_FRONT);
+    std::stringstream kept;
+    kept << file.rdbuf();
+    EXPECT_EQ(from_csv(kept.str(), GRANDSTAND_KEPT_FRONT).rows.size(), 1280u);
+}
+
 TEST(FrontCsv, NothingIsNegativeNothing) {
     Row row;
     row.frame.brightness = -1e-9;
@@ -109,6 +144,7 @@ TEST(FrontCsv, RefusesWhatItDidNotWriteInOneLine) {
     EXPECT_EQ(refusal(replaced("20000,close,1", "20000,close,yes")),
               "a.csv:6: is_preset: found 'yes', expected 0 or 1");
     EXPECT_EQ(refusal(replaced("0.01234", "nan")), "a.csv:6: flip: found 'nan', expected a number");
+    EXPECT_EQ(refusal(replaced("0.00123,", "-1,")), "a.csv:6: rate: found '-1', expected a number from 0");
     EXPECT_EQ(refusal(replaced(",1003,", ",-3,")),
               "a.csv:6: motion_updates: found '-3', expected a whole number from 0");
     EXPECT_EQ(refusal(replaced("4,2,12.500", "4,3,12.500")), "a.csv:6: state: found '3', expected 0, 1 or 2");

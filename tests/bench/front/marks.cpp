@@ -18,6 +18,11 @@ std::string three_digits(double value) {
 // Of whatever was chosen: the family that would have been asked for it.
 Setting native_setting(const sfsm::Decision& decision) {
     Setting setting{.family = "native triangles", .name = "4 samples", .state = decision.state};
+    if (decision.rate > 0) {
+        setting.family = "native rates";
+        setting.name = rate_name(decision.rate);
+        return setting;
+    }
     if (decision.state == sfsm::State::original) return setting;
     const bool has_points = decision.state == sfsm::State::points, slows = std::isfinite(decision.motion_distance);
     setting.family = !has_points ? "native motion" : slows ? "native mixture" : "native points";
@@ -28,6 +33,14 @@ Setting native_setting(const sfsm::Decision& decision) {
 }
 
 }  // namespace
+
+Measured mark(const Sight& sight, std::string_view law, double target_ms, const sfsm::Decision& decision,
+              Effort effort) {
+    Measured measured = measure(sight, native_setting(decision), effort, decision);
+    measured.row.law = law;
+    measured.row.target_ms = target_ms;
+    return measured;
+}
 
 Loop::Loop(const Sight& sight, std::string_view law)
     : sight_(sight), law_(law), controller_(sfsm::make_controller(law, sfsm::Drawing::native)) {}
@@ -64,11 +77,7 @@ double Loop::draw(double target_ms) {
 }
 
 Measured Loop::mark(double target_ms, Patience patience, Effort effort) {
-    const sfsm::Decision decision = settle(target_ms, patience);
-    Measured measured = measure(sight_, native_setting(decision), effort, decision);
-    measured.row.law = law_;
-    measured.row.target_ms = target_ms;
-    return measured;
+    return front::mark(sight_, law_, target_ms, settle(target_ms, patience), effort);
 }
 
 }  // namespace bench::front

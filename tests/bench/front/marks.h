@@ -27,6 +27,10 @@ struct Patience {
     double enough_ms = 800, most_ms = 40'000;  // of wall time: enough after the fewest frames, and in any case
 };
 
+// What a law decided for a target, measured as a setting is: natively.
+Measured mark(const Sight& sight, std::string_view law, double target_ms, const sfsm::Decision& decision,
+              Effort effort);
+
 // A law in charge of a view's frames, drawn natively, of a camera that is nudged from frame to frame.
 class Loop {
 public:

@@ -5,6 +5,7 @@
 
 #include "apps/program.h"
 #include "sfsm/controller.h"
+#include "tests/bench/front/before_rates.h"
 #include "tests/bench/front/marks.h"
 
 namespace bench::front {
@@ -50,6 +51,9 @@ void add_marks(std::vector<Step>& steps, const Part& part, std::int64_t people, 
     for (const std::string_view law : sfsm::law_names())
         for (const double target : mark_targets)
             steps.push_back({people, view.name, nullptr, std::string(law), target});
+    for (const Recorded& one : choices_before_rates())
+        if (one.people == people && one.view == view.name)
+            steps.push_back({people, view.name, nullptr, std::string(law_before_rates), one.target_ms, one.decision});
 }
 
 template <typename Names>
@@ -74,7 +78,7 @@ double Step::expected_s() const {
     constexpr double pictures = 0.7, mark = 1.5, triangles_by_opengl = 15;
     const double crowd = static_cast<double>(people) / 1'000'000;
     double seconds = pictures + crowd;
-    if (!setting) seconds += mark;
+    if (!setting && !recorded) seconds += mark;
     if (setting && setting->state != sfsm::State::points) seconds += 10 * crowd;
     if (setting && setting->drawing == sfsm::Drawing::opengl)
         seconds += setting->state == sfsm::State::original ? triangles_by_opengl : 5 * crowd;

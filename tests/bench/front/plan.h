@@ -31,6 +31,7 @@ struct Step {
     const Setting* setting = nullptr;
     std::string law;
     double target_ms = 0;
+    std::optional<sfsm::Decision> recorded{};  // that the law made once; else it decides now
 
     bool is_of(const Row& row) const;
     double expected_s() const;  // roughly, on two cores: for the time that is left

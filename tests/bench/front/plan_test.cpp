@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "render/exchange.h"
 #include "tests/bench/front/compare.h"
 #include "tests/bench/front/crops.h"
 #include "tests/bench/front/small_venue.h"
@@ -85,8 +86,48 @@ TEST(FrontPlan, LawsAreMarkedInTwoCrowds) {
         EXPECT_EQ(step.setting, nullptr);
         ++marks[step.people];
     }
-    const int each = static_cast<int>(presets.size()) * 3 * 5;
+    const int each = static_cast<int>(presets.size()) * 4 * 5;  // three laws, and one as it was
     EXPECT_EQ(marks, (std::map<std::int64_t, int>{{20'000, each}, {1'000'000, each}}));
+}
+
+// As it was recorded, to the last digit; and nothing else is.
+TEST(FrontPlan, WhatWasChosenBeforeRatesIsDrawnAgain) {
+    int found = 0;
+    for (const Step& step : plan({.people = {20'000}, .families = {"laws"}})) {
+        EXPECT_EQ(step.recorded.has_value(), step.law == "before rates");
+        if (!step.recorded) continue;
+        EXPECT_EQ(step.recorded->rate, 0);
+        if (step.view != "close" || step.target_ms != 16.6) continue;
+        ++found;
+        EXPECT_EQ(*step.recorded, (sfsm::Decision{sfsm::State::points, 80.295, 1.917}));
+    }
+    EXPECT_EQ(found, 1);
+}
+
+TEST(FrontPlan, RivalsAreInEveryPresetAndTwoMoments) {
+    for (const Setting& setting : settings()) {
+        if (!setting.rival) continue;
+        EXPECT_TRUE(setting.family.starts_with("rival: ")) << setting.family;
+        std::set<std::string> views;
+        for (const Step& step : plan({.people = {20'000}, .families = {setting.family}})) views.insert(step.view);
+        EXPECT_EQ(views.size(), presets.size() + 2) << setting.family;
+    }
+}
+
+// Which the laws that decide by rates go through, and no two have one name.
+TEST(FrontSettings, RatesSpanTheExchange) {
+    double least = 1e9, most = 0;
+    int everywhere = 0;
+    for (const Setting& setting : settings()) {
+        if (setting.family != "native rates") continue;
+        EXPECT_EQ(setting.decision(100).rate, setting.rate);
+        least = std::min(least, setting.rate);
+        most = std::max(most, setting.rate);
+        everywhere += setting.where == bench::front::Where::everywhere;
+    }
+    EXPECT_EQ(least, render::Exchange::rate_of(0));
+    EXPECT_GE(2 * most, render::Exchange::rate_of(render::Exchange::steps - 1));
+    EXPECT_EQ(everywhere, 6);
 }
 
 TEST(FrontPlan, RefusesViewsAndFamiliesThatAreNotThere) {

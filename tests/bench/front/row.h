@@ -30,7 +30,7 @@ struct Row {
     std::string setting;   // what tells it from the others of its family: "S = 1.4", "D = 20, S = 2"
     std::string law;       // whose choice it is; empty: a setting that was asked for
     double target_ms = 0;  // of the law
-    double density = 0;    // points a splat-sized square; 0: no points
+    double density = 0;    // points a splat-sized square; 0: no points, or as many as a rule says
     int samples = 0;       // a pixel, of triangles
     sfsm::Decision decision;
     sfsm::Work work;  // counted; the same on every machine
@@ -44,6 +44,9 @@ struct Row {
                                                   // each one's farthest point, and the farthest of all
     double outline_px = 0, outline_worst_px = 0;  // their outlines: mean over people, and the worst
     double covering_px = 0;                       // mean covering radius of their points; 0: no points
+    // What the frame said of itself before it was drawn (render::Frame): 0 in files that are older than that.
+    double expected_flip = 0;
+    double max_motion_px = 0, max_splat_px = 0;
 
     // How long a frame took.
     double wall_ms = 0, wall_low_ms = 0, wall_high_ms = 0;  // median, first and last quartile
@@ -68,8 +71,8 @@ struct Front {
 // A line a row below a line of columns; before them "# name: value" of the machine. Numbers as they are compared:
 // errors with 5 decimals, times with 3.
 std::string to_csv(const Front& front);
-// Throws std::runtime_error with one line: `name`, the line, what was found and what was expected. `lines_before`: of
-// the file, before `text`.
+// Of a file that is older than some columns these are 0. Throws std::runtime_error with one line: `name`, the line,
+// what was found and what was expected. `lines_before`: of the file, before `text`.
 Front from_csv(std::string_view text, const std::string& name, std::int64_t lines_before = 0);
 
 }  // namespace bench::front

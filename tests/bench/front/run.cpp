@@ -46,6 +46,7 @@ public:
 
 private:
     Measured mark(const Step& step) {
+        if (step.recorded) return front::mark(*sight_, step.law, step.target_ms, *step.recorded, options_.effort);
         if (!loop_ || loop_->law() != step.law) loop_ = std::make_unique<Loop>(*sight_, step.law);
         return loop_->mark(step.target_ms, Patience{}, options_.effort);
     }

@@ -155,6 +155,45 @@ TEST_F(FrontRun, ErrorsShrinkAsSettingsGetFiner) {
     EXPECT_EQ(rows.front().motion_px, 0);
 }
 
+// Which draws less the more it asks of a piece of work; what it comes to is in the row.
+TEST_F(FrontRun, ARateDrawsNoMoreThanALowerOne) {
+    const auto rows = run(plan({.people = {few_people}, .views = {"medium"}, .families = {"native rates"}}));
+    ASSERT_EQ(rows.size(), 11u);
+    const auto pieces = [](const Row& row) {
+        double sum = 0;
+        for (const sfsm::WorkKind kind : {sfsm::WorkKind::triangle, sfsm::WorkKind::point})
+            sum += figures::natively().pieces[sfsm::index_of(kind)] * static_cast<double>(row.work[kind]);
+        return sum;
+    };
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+        EXPECT_GT(rows[i].decision.rate, rows[i - 1].decision.rate);
+        EXPECT_LE(pieces(rows[i]), pieces(rows[i - 1]));
+        EXPECT_GE(rows[i].expected_flip, rows[i - 1].expected_flip);
+    }
+    EXPECT_LT(rows.front().frame.flip, rows.back().frame.flip);
+    EXPECT_GT(rows.back().max_splat_px, rows.front().max_splat_px);
+    EXPECT_EQ(rows.back().decision.state, sfsm::State::points);
+    EXPECT_EQ(rows.back().density, 0);
+}
+
+// They are finer, the more they may spend, and draw what they say.
+TEST_F(FrontRun, RivalsAreFinerTheMoreTheySpend) {
+    for (const char* family :
+         {"rival: by distance", "rival: budget, largest first", "rival: budget, smallest demoted"}) {
+        const auto rows = run(plan({.people = {few_people}, .views = {"close"}, .families = {family}}));
+        ASSERT_GE(rows.size(), 8u) << family;
+        EXPECT_LT(rows.back().frame.flip, rows.front().frame.flip) << family;
+        EXPECT_GT(rows.back().work[sfsm::WorkKind::point] + rows.back().work[sfsm::WorkKind::triangle],
+                  rows.front().work[sfsm::WorkKind::point] + rows.front().work[sfsm::WorkKind::triangle])
+            << family;
+        for (const Row& row : rows) {
+            EXPECT_EQ(row.motion_px, 0) << family;
+            EXPECT_EQ(row.decision.rate, 0) << family;
+            EXPECT_GE(row.decision.splat_size, 1) << family;
+        }
+    }
+}
+
 // By what the crowd itself says, person by person and in double precision.
 TEST_F(FrontRun, MotionIsThatOfTheVerticesSinceEachOneMoved) {
     auto& venue = bench::front::small_venue();
@@ -267,7 +306,8 @@ TEST_F(FrontRun, ALawInAClosedLoopSpendsWhatItsTargetAllows) {
     constexpr double never_met = 1e-3, always_met = 1e6;  // [ms]
     bench::front::Loop loop(sight, "predictive");
     const auto easy = loop.mark(always_met, some_frames, {}), hard = loop.mark(never_met, some_frames, {});
-    EXPECT_EQ(easy.row.decision.state, sfsm::State::original);
+    EXPECT_LT(easy.row.decision.rate, hard.row.decision.rate);
+    EXPECT_LT(easy.row.frame.flip, hard.row.frame.flip);
     EXPECT_EQ(hard.row.decision.state, sfsm::State::points);
     EXPECT_GT(hard.row.decision.splat_size, 0);
     EXPECT_TRUE(easy.row.is_mark());

@@ -1,8 +1,17 @@
 #include "tests/bench/front/settings.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <iterator>
+#include <string_view>
+#include <utility>
 
+#include "render/exchange.h"
 #include "sfsm/number_text.h"
+#include "tests/bench/front/rivals/by_distance.h"
+#include "tests/bench/front/rivals/largest_first.h"
+#include "tests/bench/front/rivals/smallest_demoted.h"
 
 namespace bench::front {
 
@@ -13,6 +22,7 @@ using sfsm::number_text;
 using sfsm::State;
 
 constexpr double usual_density = 1.2;
+constexpr std::string_view two_moments[] = {"roam-11s", "roam-41s"};
 
 std::string as_splats(double splat_size) {
     return "S = " + number_text(splat_size);
@@ -74,11 +84,56 @@ void add_motion(std::vector<Setting>& all) {
                            .where = where(share == 0.25 && size == 2)});
 }
 
+// An octave apart; which every law that decides by rates has between them too.
+void add_rates(std::vector<Setting>& all) {
+    constexpr int octave = 3;  // steps
+    for (int step = 0; step < render::Exchange::steps; step += octave) {
+        const double rate = render::Exchange::rate_of(step);
+        all.push_back({.family = "native rates",
+                       .name = rate_name(rate),
+                       .state = State::points,
+                       .rate = rate,
+                       .where = where(step % (2 * octave) == 0)});
+    }
+}
+
+void add_rival(std::vector<Setting>& all, const std::string& family, const std::string& name,
+               std::function<std::unique_ptr<Rival>(Cast)> make) {
+    all.push_back({.family = family,
+                   .name = name,
+                   .state = State::points,
+                   .rival = std::move(make),
+                   .where = Where::at_presets_and_two_moments});
+}
+
+// From coarse to fine.
+void add_distances(std::vector<Setting>& all) {
+    constexpr ByDistance::Distances grid[] = {{0, 10, 50},     {10, 20, 100},    {20, 40, 200},
+                                              {20, 80, 400},   {40, 80, 800},    {40, 160, 800},
+                                              {80, 320, 1600}, {160, 640, 3200}, {320, 1280, 6400}};
+    for (const ByDistance::Distances& at : grid)
+        add_rival(
+            all, "rival: by distance",
+            number_text(at.meshes_to) + ", " + number_text(at.points_to) + ", " + number_text(at.splats_from) + " m",
+            [at](Cast cast) { return std::make_unique<ByDistance>(std::move(cast), at); });
+}
+
+template <typename Rule>
+void add_budgets(std::vector<Setting>& all, const std::string& family) {
+    for (const int thousands : {50, 100, 200, 400, 800, 1600, 3200, 8000})
+        add_rival(all, family, std::to_string(thousands) + " k points",
+                  [thousands](Cast cast) { return std::make_unique<Rule>(std::move(cast), 1000.0 * thousands); });
+}
+
 std::vector<Setting> register_all() {
     std::vector<Setting> all;
     add_triangles(all);
     add_points(all);
     add_motion(all);
+    add_rates(all);
+    add_distances(all);
+    add_budgets<LargestFirst>(all, "rival: budget, largest first");
+    add_budgets<SmallestDemoted>(all, "rival: budget, smallest demoted");
     return all;
 }
 
@@ -86,12 +141,18 @@ std::vector<Setting> register_all() {
 
 sfsm::Decision Setting::decision(double range) const {
     if (state == State::original) return {};
-    return {state, motion_share * range, splat_size};
+    return {state, motion_share * range, splat_size, rate};
 }
 
 int Setting::samples() const {
     constexpr int native_samples = 4;  // render/native/near_layer.h
     return (drawing == Drawing::native ? native_samples : 1) * factor * factor;
+}
+
+std::string rate_name(double rate) {
+    char text[32];
+    std::snprintf(text, sizeof text, "rate = %.3g", rate);
+    return text;
 }
 
 const figures::Way& way_of(Drawing drawing) {
@@ -104,7 +165,9 @@ std::span<const Setting> settings() {
 }
 
 bool is_measured(const Setting& setting, std::int64_t people, const std::string& view, bool is_preset) {
-    if (!is_preset && setting.where == Where::at_presets) return false;
+    const bool is_chosen = setting.where == Where::at_presets_and_two_moments &&
+                           std::ranges::find(two_moments, view) != std::end(two_moments);
+    if (!is_preset && setting.where != Where::everywhere && !is_chosen) return false;
     const bool is_dear = setting.drawing == Drawing::opengl && setting.state == State::original;
     return !is_dear || people <= most_for_opengl_triangles || (view == "close" && setting.factor == 1);
 }

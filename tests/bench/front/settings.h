@@ -1,7 +1,9 @@
 // The ways to draw that are compared: every one that exists, by all that can be set of it.
 #pragma once
 
+#include <functional>
 #include <limits>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,11 +12,12 @@
 #include "render/select.h"
 #include "sfsm/decision.h"
 #include "sfsm/drawing.h"
+#include "tests/bench/front/rivals/rival.h"
 
 namespace bench::front {
 
 // In which views a setting is measured.
-enum class Where { everywhere, at_presets };
+enum class Where { everywhere, at_presets, at_presets_and_two_moments };
 
 struct Setting {
     std::string family, name;  // Row::family, Row::setting
@@ -25,6 +28,8 @@ struct Setting {
     double motion_share = std::numeric_limits<double>::infinity();
     double splat_size = 0;  // S [px]
     float density = render::SelectOptions{}.density;
+    double rate = 0;                                      // sfsm::Decision's, which then decides alone
+    std::function<std::unique_ptr<Rival>(Cast)> rival{};  // empty: none; else it decides, natively, and nothing above
     int factor = 1;  // a picture is drawn so many times as wide and high, and box-filtered; the time is of drawing it
     Where where = Where::everywhere;
 
@@ -32,6 +37,9 @@ struct Setting {
     sfsm::Decision decision(double range) const;
     int samples() const;  // a pixel, of triangles
 };
+
+// "rate = 0.00123": what Setting::name says of one.
+std::string rate_name(double rate);
 
 const figures::Way& way_of(sfsm::Drawing drawing);
 
