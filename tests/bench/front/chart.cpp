@@ -142,8 +142,8 @@ std::string points(const Plot& plot, const Scene& scene, std::size_t family, con
                    "\" cy=\"" + y + "\" r=\"" + pixels(plot.look.point) + "\"/>\n";
     }
     if (order.empty()) return "";
-    return "<g class=\"family family-" + std::to_string(family % 8) + "\">\n" + path("class=\"curve\"", d) + circles +
-           "</g>\n";
+    return "<g class=\"family family-" + std::to_string(family % family_looks) + "\">\n" + path("class=\"curve\"", d) +
+           circles + "</g>\n";
 }
 
 std::string marks(const Plot& plot, const Scene& scene) {

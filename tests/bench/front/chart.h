@@ -18,7 +18,9 @@ struct Range {
 };
 Range range_of(std::span<const Scene> scenes, const ErrorKind& error);
 
-// Families by the place of their colour.
+inline constexpr std::size_t family_looks = 12;  // that page/front.css has; from there on they come again
+
+// Families by the place of their look.
 std::vector<std::string> families_of(const Front& front);
 
 enum class ChartSize { small, large };

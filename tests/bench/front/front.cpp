@@ -20,6 +20,7 @@
 #include "tests/bench/front/page.h"
 #include "tests/bench/front/run.h"
 #include "tests/bench/front/unfinished.h"
+#include "tests/bench/front/verdicts.h"
 
 namespace bench::front {
 
@@ -133,6 +134,8 @@ std::filesystem::path crops_folder(const Options& options) {
 void write_page(const Options& options, const Front& front) {
     const std::filesystem::path page = std::filesystem::path(options.out) / "front.html";
     write(page, page_of(front, read_crops(front, crops_folder(options))));
+    const Verdicts verdicts = verdicts_of(scenes_of(front));
+    if (!verdicts.cases.empty()) std::printf("%s", verdicts_text(verdicts).c_str());
     std::printf("%s: %zu rows\n", page.c_str(), front.rows.size());
 }
 

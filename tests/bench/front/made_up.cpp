@@ -9,11 +9,14 @@
 #include "sfsm/controller.h"
 #include "sfsm/number_text.h"
 #include "sfsm/random.h"
+#include "tests/bench/front/before_rates.h"
 
 namespace bench::front {
 namespace {
 
 using sfsm::WorkKind;
+
+constexpr double made_up_targets[] = {4, 8, 16.6, 33, 100};
 
 struct View {
     std::string name;
@@ -48,6 +51,7 @@ struct Way {
     double us_a_person, flip, motion;
     double splat_size = 0, density = 0;
     int samples = 0;
+    double rate = 0;
 };
 
 std::vector<Way> made_up_ways() {
@@ -63,6 +67,13 @@ std::vector<Way> made_up_ways() {
     }
     for (const double s : {1.0, 1.4, 2.0, 2.8, 4.0})
         ways.push_back({"OpenGL points", "S = " + sfsm::number_text(s), 3 + 9 / s, 0.02 + 0.02 * s, 0, s, 1.2, 1});
+    for (const double rate : {0.0001, 0.0008, 0.0064, 0.0512}) {
+        const double coarse = std::log2(rate / 0.0001) / 3;
+        ways.push_back({"native rates", "rate = " + sfsm::number_text(rate), 0.2 + 3 / std::exp2(coarse),
+                        0.005 + 0.006 * coarse, 0, 0.5 + coarse, 0, 4, rate});
+        ways.push_back({"rival: by distance", sfsm::number_text(320 / std::exp2(coarse)) + " m",
+                        0.25 + 3.5 / std::exp2(coarse), 0.006 + 0.009 * coarse, 0, 0.5 + coarse, 0, 4});
+    }
     for (const double share : {0.05, 0.25, 0.5, 0.75}) {
         const std::string d = "D = " + sfsm::number_text(share) + " L";
         ways.push_back({"native motion", d, 4.1 + 0.4 * share, 0.004 + 0.01 * (1 - share), 2 - 2 * share, 0, 0, 4});
@@ -104,6 +115,7 @@ Row setting_row(std::int64_t people, const View& view, const Way& way) {
     row.density = way.density;
     row.samples = way.samples;
     row.decision.splat_size = way.splat_size;
+    row.decision.rate = way.rate;
     row.covering_px = way.splat_size / 2;
     const double seen = static_cast<double>(people) * view.seen;
     row.work[WorkKind::person] = std::llround(seen);
@@ -112,6 +124,7 @@ Row setting_row(std::int64_t people, const View& view, const Way& way) {
     row.work[WorkKind::pixel] = 921'600;
     fill_times(row, 2.5 + seen * way.us_a_person * (0.4 + 0.6 * view.near) / 1000 * 0.6);
     fill_errors(row, way.flip * (0.5 + 0.5 * view.near), way.motion);
+    if (way.samples == 4) row.expected_flip = row.frame.flip * (1 + 0.2 * chance(row, 5));
     return row;
 }
 
@@ -165,8 +178,9 @@ Front made_up_front() {
             }
             if (!view.is_preset) continue;
             for (const std::string_view law : sfsm::law_names())
-                for (const double target : {4.0, 8.0, 16.6, 33.0, 100.0})
-                    front.rows.push_back(mark_row(people, view, law, target));
+                for (const double target : made_up_targets) front.rows.push_back(mark_row(people, view, law, target));
+            for (const double target : made_up_targets)
+                front.rows.push_back(mark_row(people, view, law_before_rates, target));
         }
     }
     return front;

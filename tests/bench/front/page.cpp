@@ -87,7 +87,7 @@ std::string crowd_buttons(const Page& page) {
 std::string legend(const Page& page) {
     std::string out;
     for (std::size_t i = 0; i < page.families.size(); ++i) {
-        out += "<span class=\"key family-" + std::to_string(i % 8) +
+        out += "<span class=\"key family-" + std::to_string(i % family_looks) +
                "\"><svg class=\"swatch\" aria-hidden=\"true\" viewBox=\"0 0 26 12\"><path class=\"curve\" d=\"M0 "
                "6h26\"/><circle class=\"point\" cx=\"13\" cy=\"6\" r=\"3.5\"/></svg>" +
                escaped(page.families[i]) + "</span>\n";
@@ -170,6 +170,7 @@ std::string part(const Page& page, std::string_view name) {
     if (name == "chart") return large_chart(page);
     if (name == "scene") return page.scenes.empty() ? "nothing was measured" : escaped(page.scenes.front().name());
     if (name == "tables") return all_tables(page);
+    if (name == "verdicts") return verdict_tables(verdicts_of(page.scenes));
     if (name == "paper") return paper_table(page.scenes);
     if (name == "meanings") return meanings();
     if (name == "data") return embedded(page.front, page.scenes, page.crops);

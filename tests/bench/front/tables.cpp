@@ -58,6 +58,55 @@ std::string ours_in(const Scene* scene, const PaperFigure& figure) {
     return escaped(setting_text(row)) + ": " + error.told(error.value(row)) + " in " + time_text(row.wall_ms) + " ms";
 }
 
+constexpr int ratio_digits = 2;
+
+std::string ratio_cell(const std::optional<double>& ratio) {
+    return cell(ratio ? sfsm::report::figure(*ratio, ratio_digits) : "\u2013");
+}
+
+std::string head_row(const std::vector<std::string>& names) {
+    std::string out = "<thead><tr>";
+    for (const std::string& name : names) out += "<th scope=\"col\">" + escaped(name) + "</th>";
+    return out + "</tr></thead><tbody>\n";
+}
+
+std::string summary_table(const Verdicts& verdicts) {
+    std::string out = "<table>" + head_row({"Of the law\u2019s choices", "Compared", "Median", "Worst", "Which"});
+    for (const Summary& summary : summaries(verdicts)) {
+        const auto figure = [&](double ratio) {
+            return ratio_cell(summary.cases > 0 ? std::optional(ratio) : std::nullopt);
+        };
+        out += "<tr><th scope=\"row\">" + escaped(summary.what) + "</th>" +
+               cell(std::to_string(summary.cases) + " of " + std::to_string(summary.of)) + figure(summary.median) +
+               figure(summary.worst) + cell(escaped(summary.worst_of)) + "</tr>\n";
+    }
+    return out + "</tbody></table>\n";
+}
+
+std::string expectation_line(const Expectation& expectation) {
+    if (expectation.rows == 0) return "<p>No frame said what FLIP it expects of itself.</p>\n";
+    return "<p>What frames expected of themselves, in " + std::to_string(expectation.rows) +
+           " rows of rates and of laws: rank correlation with the measured FLIP " +
+           sfsm::report::figure(expectation.rank_correlation, 3) + ", off by " +
+           sfsm::report::figure(100 * expectation.worst, 0) + " % at worst: " + escaped(expectation.worst_of) +
+           ".</p>\n";
+}
+
+std::string case_table(const Verdicts& verdicts) {
+    std::vector<std::string> names{"Choice", "Time ms", "FLIP", "Over any rate", "Finest fits"};
+    for (const Contender& rival : verdicts.rivals) names.push_back("Beyond the finest, over " + rival.name);
+    names.emplace_back("Over before rates");
+    std::string out = "<table>" + head_row(names);
+    const ErrorKind& flip = error_kinds().front();
+    for (const Case& one : verdicts.cases) {
+        out += "<tr><th scope=\"row\">" + escaped(one.name()) + "</th>" + cell(time_text(one.ms)) +
+               cell(flip.figure(one.flip)) + ratio_cell(one.over_rates) + cell(one.finest_fits ? "yes" : "no");
+        for (const auto& ratio : one.over_rivals) out += ratio_cell(ratio);
+        out += ratio_cell(one.over_before) + "</tr>\n";
+    }
+    return out + "</tbody></table>\n";
+}
+
 }  // namespace
 
 std::string front_table(const Scene& scene, const ErrorKind& error) {
@@ -73,6 +122,13 @@ std::string front_table(const Scene& scene, const ErrorKind& error) {
                " ms: " + escaped(setting_text(row)) + "</th>" + row_cells(row) + "</tr>\n";
     }
     return out + "</tbody></table>\n";
+}
+
+std::string verdict_tables(const Verdicts& verdicts) {
+    if (verdicts.cases.empty()) return "<p>What the law of today chooses was not measured.</p>\n";
+    return "<div class=\"scroll\">" + summary_table(verdicts) + "</div>\n" + expectation_line(verdicts.expectation) +
+           "<details><summary>Choice by choice</summary><div class=\"scroll\">" + case_table(verdicts) +
+           "</div></details>\n";
 }
 
 std::string paper_table(const std::vector<Scene>& scenes) {

@@ -88,7 +88,7 @@ function drawFamilies(svg, scene, plot, places) {
   front.families.forEach((name, family) => {
     const rows = scene.rows.filter((row) => row.family === family && !isMark(row) && isShown(row, error)).sort((a, b) => a.ms - b.ms);
     if (rows.length === 0) return;
-    const group = add(svg, "g", { class: `family family-${family % 8}` });
+    const group = add(svg, "g", { class: `family family-${family % 12}` });
     const at = rows.map((row) => [px(x.at(row.ms)), px(y.at(heightOf(row, error)))]);
     add(group, "path", { class: "curve", d: at.map(([left, top], i) => `${i === 0 ? "M" : "L"}${left} ${top}`).join("") });
     rows.forEach((row, i) => {

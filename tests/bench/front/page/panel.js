@@ -52,7 +52,7 @@ function addCrops(panel, scene, row) {
 function fillPanel(panel, scene, row) {
   panel.replaceChildren();
   panel.dataset.row = row.place;
-  const title = addHtml(panel, "h3", settingText(row), { class: `family-${row.family % 8}` });
+  const title = addHtml(panel, "h3", settingText(row), { class: `family-${row.family % 12}` });
   if (!isMark(row)) title.prepend(addHtml(title, "i", "", { class: "chip" }));
   if (isMark(row)) addHtml(panel, "p", `chosen by ${row.law} at a target of ${px(row.targetMs)} ms`, { class: "law" });
   const time = addHtml(panel, "p", "", { class: "time" });
