@@ -65,7 +65,7 @@ void add_options(CLI::App& app, Options& options) {
     }
     apps::describe(app,
                    "Examples:\n"
-                   "  front                      everything: out/front.csv and .html, in some twenty minutes\n"
+                   "  front                      everything: out/front.csv and .html, in some forty minutes\n"
                    "  front --people 20000 --views close --only \"native points;native triangles\"\n"
                    "  front --quick              fails, and names what moved, if a count or an error did\n"
                    "  front --page-of kept.csv   out/front.html of what another run measured\n"

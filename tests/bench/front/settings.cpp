@@ -109,7 +109,7 @@ void add_rival(std::vector<Setting>& all, const std::string& family, const std::
 // From coarse to fine.
 void add_distances(std::vector<Setting>& all) {
     constexpr ByDistance::Distances grid[] = {{0, 10, 50},     {10, 20, 100},    {20, 40, 200},
-                                              {20, 80, 400},   {40, 80, 800},    {40, 160, 800},
+                                              {30, 80, 400},   {40, 80, 800},    {60, 160, 800},
                                               {80, 320, 1600}, {160, 640, 3200}, {320, 1280, 6400}};
     for (const ByDistance::Distances& at : grid)
         add_rival(
