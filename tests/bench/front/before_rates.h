@@ -13,6 +13,9 @@ namespace bench::front {
 
 inline constexpr std::string_view law_before_rates = "before rates";  // Row::law
 
+// The default law where it can set D and S alone: a forecast's rates are kept from it.
+inline constexpr std::string_view law_by_knobs = "predictive by D and S";  // Row::law
+
 struct Recorded {
     std::int64_t people = 0;
     std::string view;

@@ -43,7 +43,10 @@ Measured mark(const Sight& sight, std::string_view law, double target_ms, const 
 }
 
 Loop::Loop(const Sight& sight, std::string_view law)
-    : sight_(sight), law_(law), controller_(sfsm::make_controller(law, sfsm::Drawing::native)) {}
+    : sight_(sight),
+      law_(law),
+      controller_(sfsm::make_controller(law == law_by_knobs ? sfsm::law_names().front() : law, sfsm::Drawing::native)) {
+}
 
 sfsm::Decision Loop::settle(double target_ms, Patience patience) {
     const Size size = sight_.venue().size();
@@ -51,9 +54,11 @@ sfsm::Decision Loop::settle(double target_ms, Patience patience) {
     double spent = 0;
     for (int frames = 0; frames < patience.most_frames && spent < patience.most_ms; ++frames) {
         if (frames >= patience.fewest_frames && spent >= patience.enough_ms) break;
+        const double rate = decision_.rate;
         spent += draw(target_ms);
+        if (frames == 0 || decision_.rate == rate) kept_ = decision_;
     }
-    return decision_;
+    return kept_;
 }
 
 double Loop::draw(double target_ms) {
@@ -67,7 +72,9 @@ double Loop::draw(double target_ms) {
     Times times;
     times.take([&] {
         const render::Survey& survey = shooter.survey(render::make_view(pose, size.width, size.height), tick);
-        decision_ = controller_->decide({target_ms, static_cast<double>(survey.range), &survey.forecast});
+        sfsm::Forecast forecast = survey.forecast;
+        if (law_ == law_by_knobs) forecast.rates = {};
+        decision_ = controller_->decide({target_ms, static_cast<double>(survey.range), &forecast});
         drawn = &shooter.select(decision_, tick);
         shooter.draw(*drawn);
     });

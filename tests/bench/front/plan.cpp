@@ -45,9 +45,14 @@ void add_settings(std::vector<Step>& steps, const Part& part, std::int64_t peopl
 }
 
 void add_marks(std::vector<Step>& steps, const Part& part, std::int64_t people, const NamedView& view) {
-    const bool wanted =
-        part.with_marks && is_in(part.families, std::string(marks_family)) && view.is_preset && is_marked(people);
+    const bool wanted = part.with_marks && is_in(part.families, std::string(marks_family)) && is_marked(people);
     if (!wanted) return;
+    if (!view.is_preset) {
+        for (const std::string_view law : {sfsm::law_names().front(), law_by_knobs})
+            for (const double target : path_targets)
+                steps.push_back({people, view.name, nullptr, std::string(law), target});
+        return;
+    }
     for (const std::string_view law : sfsm::law_names())
         for (const double target : mark_targets)
             steps.push_back({people, view.name, nullptr, std::string(law), target});

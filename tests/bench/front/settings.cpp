@@ -9,6 +9,7 @@
 
 #include "render/exchange.h"
 #include "sfsm/number_text.h"
+#include "tests/bench/front/marks.h"
 #include "tests/bench/front/rivals/by_distance.h"
 #include "tests/bench/front/rivals/largest_first.h"
 #include "tests/bench/front/rivals/smallest_demoted.h"
@@ -22,7 +23,6 @@ using sfsm::number_text;
 using sfsm::State;
 
 constexpr double usual_density = 1.2;
-constexpr std::string_view two_moments[] = {"roam-11s", "roam-41s"};
 
 std::string as_splats(double splat_size) {
     return "S = " + number_text(splat_size);
@@ -103,7 +103,7 @@ void add_rival(std::vector<Setting>& all, const std::string& family, const std::
                    .name = name,
                    .state = State::points,
                    .rival = std::move(make),
-                   .where = Where::at_presets_and_two_moments});
+                   .where = Where::at_marked_presets});
 }
 
 // From coarse to fine.
@@ -120,7 +120,7 @@ void add_distances(std::vector<Setting>& all) {
 
 template <typename Rule>
 void add_budgets(std::vector<Setting>& all, const std::string& family) {
-    for (const int thousands : {50, 100, 200, 400, 800, 1600, 3200, 8000})
+    for (const int thousands : {50, 100, 200, 400, 800, 1600, 3200})
         add_rival(all, family, std::to_string(thousands) + " k points",
                   [thousands](Cast cast) { return std::make_unique<Rule>(std::move(cast), 1000.0 * thousands); });
 }
@@ -165,9 +165,8 @@ std::span<const Setting> settings() {
 }
 
 bool is_measured(const Setting& setting, std::int64_t people, const std::string& view, bool is_preset) {
-    const bool is_chosen = setting.where == Where::at_presets_and_two_moments &&
-                           std::ranges::find(two_moments, view) != std::end(two_moments);
-    if (!is_preset && setting.where != Where::everywhere && !is_chosen) return false;
+    if (!is_preset && setting.where != Where::everywhere) return false;
+    if (setting.where == Where::at_marked_presets && !is_marked(people)) return false;
     const bool is_dear = setting.drawing == Drawing::opengl && setting.state == State::original;
     return !is_dear || people <= most_for_opengl_triangles || (view == "close" && setting.factor == 1);
 }

@@ -17,7 +17,7 @@
 namespace bench::front {
 
 // In which views a setting is measured.
-enum class Where { everywhere, at_presets, at_presets_and_two_moments };
+enum class Where { everywhere, at_presets, at_marked_presets };
 
 struct Setting {
     std::string family, name;  // Row::family, Row::setting

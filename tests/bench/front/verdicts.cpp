@@ -38,12 +38,17 @@ bool is_finite(const Row& row) {
     return std::isfinite(row.frame.flip) && std::isfinite(row.wall_ms) && row.wall_ms > 0;
 }
 
-// The row with the least FLIP; of several the fastest. Never null of a scene that has a finite row.
+bool is_native(const Row& row) {
+    return !row.family.starts_with("OpenGL");
+}
+
+// The row with the least FLIP of all that are drawn natively; of several the fastest. Never null of a scene that has a
+// finite row of these.
 const Row* finest_of(const Scene& scene) {
     const Row* finest = nullptr;
     const auto rank = [](const Row& row) { return std::pair(row.frame.flip, row.wall_ms); };
     for (const Row& row : scene.rows)
-        if (is_finite(row) && (!finest || rank(row) < rank(*finest))) finest = &row;
+        if (is_finite(row) && is_native(row) && (!finest || rank(row) < rank(*finest))) finest = &row;
     return finest;
 }
 
@@ -73,7 +78,12 @@ Case case_of(const Scene& scene, const Row& mark, const Row& finest, const std::
         one.over_rivals.push_back(
             is_asked ? std::optional(ratio(one.flip - finest.frame.flip, *its - finest.frame.flip)) : std::nullopt);
     }
-    if (const Row* before = before_rates(scene, mark.target_ms)) one.over_before = ratio(one.flip, before->frame.flip);
+    if (const Row* before = before_rates(scene, mark.target_ms)) {
+        // Both in the same time: along what rates have.
+        const auto then = least_flip(scene.rows, {std::string(rates_family)}, before->wall_ms);
+        const auto now = least_flip(scene.rows, {std::string(rates_family)}, one.ms);
+        one.over_before = ratio(one.flip, before->frame.flip) * (then && now ? *then / *now : 1);
+    }
     return one;
 }
 
@@ -99,6 +109,23 @@ Expectation expectation_of(const std::vector<Scene>& scenes) {
     found.rows = expected.size();
     found.rank_correlation = rank_correlation(expected, measured);
     return found;
+}
+
+Flicker flicker_of(const std::vector<Scene>& scenes) {
+    Flicker all;
+    for (const Scene& scene : scenes) {
+        if (scene.is_preset) continue;
+        for (const Row& row : scene.rows) {
+            if (row.law != sfsm::law_names().front()) continue;
+            const auto other = std::ranges::find_if(
+                scene.rows, [&](const Row& one) { return one.law == law_by_knobs && one.target_ms == row.target_ms; });
+            if (other == scene.rows.end()) continue;
+            all.by_rates += row.change;
+            all.by_knobs += other->change;
+            ++all.pairs;
+        }
+    }
+    return all;
 }
 
 // From 0; equal values have the mean of theirs.
@@ -176,8 +203,9 @@ double rank_correlation(const std::vector<double>& a, const std::vector<double>&
 }
 
 Verdicts verdicts_of(const std::vector<Scene>& scenes) {
-    Verdicts verdicts{rivals_in(scenes), {}, expectation_of(scenes)};
+    Verdicts verdicts{rivals_in(scenes), {}, expectation_of(scenes), flicker_of(scenes)};
     for (const Scene& scene : scenes) {
+        if (!scene.is_preset) continue;
         const Row* finest = finest_of(scene);
         for (const Row& row : scene.rows)
             if (row.law == sfsm::law_names().front() && is_finite(row))
@@ -198,7 +226,7 @@ std::vector<Summary> summaries(const Verdicts& verdicts) {
             "FLIP beyond the finest, over that in its time of: " + verdicts.rivals[i].name, verdicts.cases,
             [i](const Case& one) { return one.over_rivals[i]; }, is_short));
     all.push_back(summary_of(
-        "FLIP over that before rates at its target", verdicts.cases, [](const Case& one) { return one.over_before; },
+        "FLIP over that before rates in its time", verdicts.cases, [](const Case& one) { return one.over_before; },
         always));
     return all;
 }
@@ -219,6 +247,11 @@ std::string verdicts_text(const Verdicts& verdicts) {
     if (expectation.rows > 0)
         out += ", rank correlation " + figure(expectation.rank_correlation, digits) + ", off by " +
                figure(100 * expectation.worst, 0) + " % at worst (" + expectation.worst_of + ")";
+    const Flicker& flicker = verdicts.flicker;
+    if (flicker.pairs > 0)
+        out += "\nChange from frame to frame along the path, over that by D and S: " +
+               figure(flicker.by_rates / flicker.by_knobs, digits) + " (" + std::to_string(flicker.pairs) +
+               " choices each)";
     return out + '\n';
 }
 

@@ -26,11 +26,12 @@ struct Case {
     double target_ms = 0;
     double ms = 0, flip = 0;           // of what it chose
     std::optional<double> over_rates;  // its FLIP over the least of rates in its time
-    // Whether the finest drawing, which has the least FLIP of all rows of the view, is as fast as the target.
+    // Whether the finest native drawing, which has the least FLIP of all native rows of the view, is as fast as the
+    // target.
     bool finest_fits = false;
     // Where it isn't: the law's FLIP beyond the finest's, over each contender's in the law's time. As Verdicts says.
     std::vector<std::optional<double>> over_rivals;
-    std::optional<double> over_before;  // its FLIP over that before rates at the same target
+    std::optional<double> over_before;  // its FLIP over that before rates in the same time
 
     std::string name() const;  // "20,000 people, still, 16.6 ms"
 };
@@ -43,10 +44,18 @@ struct Expectation {
     std::string worst_of;         // which row that is
 };
 
+// What changes from frame to frame and should not, where the camera moves along the path: summed over the choices of
+// the default law, and over those of the same law where it can set D and S alone.
+struct Flicker {
+    double by_rates = 0, by_knobs = 0;  // [of 255]
+    int pairs = 0;
+};
+
 struct Verdicts {
     std::vector<Contender> rivals;
     std::vector<Case> cases;  // scene by scene, in the rows' order
     Expectation expectation;
+    Flicker flicker;
 };
 
 Verdicts verdicts_of(const std::vector<Scene>& scenes);

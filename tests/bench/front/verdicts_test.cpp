@@ -65,7 +65,8 @@ TEST(FrontVerdicts, AChoiceIsHeldAgainstRatesRivalsAndWhatItWasBefore) {
     const Case& one = found.cases[0];
     EXPECT_EQ(one.name(), "20,000 people, still, 16.6 ms");
     EXPECT_NEAR(*one.over_rates, 0.022 / 0.02, 1e-12);
-    EXPECT_NEAR(*one.over_before, 0.5, 1e-12);
+    const double in_17_ms = 0.03 - 0.02 * std::log(1.7) / std::log(4);  // what rates have there, where it was
+    EXPECT_NEAR(*one.over_before, 0.5 * in_17_ms / 0.02, 1e-12);
     EXPECT_TRUE(one.finest_fits);  // what was chosen before rates at 8 ms is as fast as 16.6 ms
     EXPECT_FALSE(one.over_rivals[0]);
 }
@@ -88,6 +89,22 @@ TEST(FrontVerdicts, WhereTheFinestDoesNotFitRivalsAreAskedForWhatTheyLeaveBeyond
 TEST(FrontVerdicts, AsFineAsTheFinestBothIsAsGood) {
     const auto found = verdicts({row("native points", 16, 0.01), choice(12, 20, 0.01)});
     EXPECT_EQ(*found.cases.at(0).over_rivals.at(0), 1);
+}
+
+TEST(FrontVerdicts, WhatFlickersAlongThePathIsSummedOverPairs) {
+    const auto along = [](std::string_view law, double target_ms, double change) {
+        Row one = choice(target_ms, target_ms, 0.02, law);
+        one.view = "roam-4s";
+        one.is_preset = false;
+        one.change = change;
+        return one;
+    };
+    const auto found = verdicts({along("predictive", 33, 1), along("predictive", 16.6, 2), along("predictive", 8, 100),
+                                 along(law_by_knobs, 33, 3), along(law_by_knobs, 16.6, 5)});
+    EXPECT_EQ(found.flicker.pairs, 2);
+    EXPECT_EQ(found.flicker.by_rates, 3);
+    EXPECT_EQ(found.flicker.by_knobs, 8);
+    EXPECT_TRUE(found.cases.empty());  // presets alone are judged by what was chosen there
 }
 
 TEST(FrontVerdicts, SummariesNameTheWorstAndCountWhatCouldNotBeCompared) {
