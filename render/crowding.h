@@ -12,9 +12,11 @@ public:
     // One of them: where their middle is [m], as large as they are [m].
     void add(glm::vec3 middle, float height);
 
-    // [0, 1] How much of each shows on average, seen in that direction (any length > 0) by silhouettes of that mean
-    // area [m^2]: (1 + x^2)^(-1/2), where x is all silhouettes over the area that they are strewn over.
-    float visible_share(glm::vec3 direction, float silhouette) const;
+    // [0, 1] How much of each shows on average, of silhouettes of that mean area [m^2] whose middle is `away` [m] from
+    // the eye, not 0: (1 + x^2)^(-1/2), where x is all silhouettes over the area that they are strewn over. Who is
+    // nearer looks larger and is seen more steeply, which matters in a block that is deeper than it is far: x then is
+    // of a nearer one.
+    float visible_share(glm::vec3 away, float silhouette) const;
 
 private:
     double count_ = 0;

@@ -1,0 +1,113 @@
+// How much of people shows who stand close together, against a raster of all of them.
+#include "render/crowding.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace {
+
+using render::Crowding;
+
+// Bodies as a crowd's silhouettes have them: 0.3 as wide as high.
+constexpr float breadth = 0.3f;
+
+float silhouette(float height) {
+    return breadth * height * height;
+}
+
+// Rows of a stand, each higher than the one before.
+std::vector<glm::vec3> stand(int rows, int seats, float apart, float rise, float scale = 1) {
+    std::vector<glm::vec3> middles;
+    for (int row = 0; row < rows; ++row)
+        for (int seat = 0; seat < seats; ++seat)
+            middles.push_back(scale * glm::vec3(apart * static_cast<float>(seat), rise * static_cast<float>(row),
+                                                -0.8f * static_cast<float>(row)));
+    return middles;
+}
+
+// Seen from far away in that direction.
+float share_of(const std::vector<glm::vec3>& middles, float height, glm::vec3 direction, glm::vec3 origin = {}) {
+    constexpr float far = 1e6f;
+    Crowding crowding;
+    for (const glm::vec3& middle : middles) crowding.add(middle + origin, height);
+    return crowding.visible_share(far * direction, silhouette(height));
+}
+
+// Upright rectangles that face the eye, which is infinitely far away, in a raster of a hundredth of a metre: all that
+// shows over all that there is.
+double drawn_share(const std::vector<glm::vec3>& middles, float height, glm::vec3 direction) {
+    constexpr int side = 4096;
+    constexpr float cell = 0.01f;  // [m]
+    const glm::vec3 ahead = glm::normalize(direction);
+    const glm::vec3 right = glm::normalize(glm::cross(ahead, glm::vec3(0, 1, 0))), up = glm::cross(right, ahead);
+    std::vector<bool> full(std::size_t{side} * side);
+    const int wide = static_cast<int>(breadth * height / cell), high = static_cast<int>(height / cell);
+    double shown = 0;
+    for (const glm::vec3& middle : middles) {
+        const int x0 = side / 2 + static_cast<int>(std::floor(glm::dot(right, middle) / cell));
+        const int y0 = side / 2 + static_cast<int>(std::floor(glm::dot(up, middle) / cell));
+        for (int y = y0; y < y0 + high; ++y)
+            for (int x = x0; x < x0 + wide; ++x) {
+                std::vector<bool>::reference here = full[static_cast<std::size_t>(y) * side + x];
+                shown += here ? 0 : 1;
+                here = true;
+            }
+    }
+    return shown / (static_cast<double>(wide) * high * static_cast<double>(middles.size()));
+}
+
+TEST(Crowding, LonePeopleShowWholly) {
+    EXPECT_EQ(share_of({}, 1.7f, {0, 0, 1}), 1);
+    EXPECT_EQ(share_of({{3, 4, 5}}, 1.7f, {0, 0, 1}), 1);
+    constexpr float far_apart = 200;  // [m]
+    for (const glm::vec3 direction : {glm::vec3(0, 0, 1), {0, 1, 0}, {1, 1, 1}})
+        EXPECT_GT(share_of({{0, 0, 0}, {far_apart, far_apart, 0}, {0, far_apart, far_apart}, {far_apart, 0, far_apart}},
+                           1.7f, direction),
+                  0.99f);
+}
+
+// Aside, rows that stand behind one another are seen between each other: more shows than of people who are strewn.
+TEST(Crowding, OfAStandAsMuchShowsAsARasterSays) {
+    constexpr double tolerance = 0.15, aside_tolerance = 0.25;
+    constexpr float height = 1.3f;  // [m] of people who sit
+    const std::vector<glm::vec3> people = stand(12, 20, 0.5f, 0.4f);
+    for (const glm::vec3 direction : {glm::vec3(0, 0, -1), {0, -0.5f, -1}, {0, -1, -1}, {0.5f, -0.3f, -1}}) {
+        const double drawn = drawn_share(people, height, direction);
+        EXPECT_NEAR(static_cast<double>(share_of(people, height, direction)), drawn,
+                    (direction.x == 0 ? tolerance : aside_tolerance) * drawn)
+            << direction.x << ' ' << direction.y << ' ' << direction.z;
+    }
+}
+
+TEST(Crowding, LessShowsOfMoreInTheSamePlace) {
+    const float few = share_of(stand(12, 10, 1.0f, 0.4f), 1.3f, {0, -0.3f, -1});
+    const float many = share_of(stand(12, 20, 0.5f, 0.4f), 1.3f, {0, -0.3f, -1});
+    EXPECT_LT(many, few);
+}
+
+// Who is near looks larger, and is before the others.
+TEST(Crowding, MoreShowsFromNearby) {
+    Crowding crowding;
+    for (const glm::vec3& middle : stand(12, 20, 0.5f, 0.4f)) crowding.add(middle, 1.3f);
+    float before = 1;
+    for (const float distance : {2.0f, 5.0f, 10.0f, 30.0f, 100.0f}) {
+        const float share =
+            crowding.visible_share(glm::normalize(glm::vec3(0, -0.3f, -1)) * distance, silhouette(1.3f));
+        EXPECT_LT(share, before) << distance;
+        before = share;
+    }
+    EXPECT_NEAR(before, share_of(stand(12, 20, 0.5f, 0.4f), 1.3f, {0, -0.3f, -1}), 0.02f);
+}
+
+TEST(Crowding, ScaleAndOriginDontMatter) {
+    constexpr float tolerance = 1e-3f;  // floats of places a kilometre away
+    const glm::vec3 direction(0.3f, -0.4f, -1);
+    const float share = share_of(stand(12, 20, 0.5f, 0.4f), 1.3f, direction);
+    EXPECT_NEAR(share_of(stand(12, 20, 0.5f, 0.4f, 10), 13.0f, direction), share, tolerance);
+    EXPECT_NEAR(share_of(stand(12, 20, 0.5f, 0.4f), 1.3f, direction, {1000, -200, 500}), share, tolerance);
+}
+
+}  // namespace
