@@ -52,8 +52,9 @@ void copy_block(const Pixel* block, int x, int y, int end_y, Plane<Pixel>& out) 
 
 }  // namespace
 
-Backdrop::Backdrop(const scene::StaticMesh& structure, const scene::Ground& ground, const scene::Light& light)
-    : ground_(ground), light_(light) {
+Backdrop::Backdrop(const scene::StaticMesh& structure, const scene::Ground& ground, const scene::Light& light,
+                   const BackdropErrors& errors)
+    : ground_(ground), light_(light), errors_(errors) {
     shading_.ground = find_ground(ground.shader);
     const std::vector<std::uint32_t> colors =
         light_corners(make_frame_block(View{}, ground, light, 1.0f), structure.vertices);
@@ -160,15 +161,12 @@ void Backdrop::paint(const Tile& tile, BackdropPicture& out) const {
 
 namespace {
 
-// Mean FLIP of a finished block, fitted to pictures without people: four samples of what is restless are too few, and
-// ground is shaded once a pixel.
-float expected_error(const Cell<most_samples>& cell, std::size_t block) {
-    constexpr float of_all = 0.0017f, of_ground = 0.0132f, of_unrest = 0.95f;
+// Of a finished block.
+float expected_error(const Cell<most_samples>& cell, std::size_t block, const BackdropErrors& errors) {
     if (cell.is_sheet[block]) {
         const std::uint32_t surface = cell.sheet[block].surface;
-        return surface >= ground_surface && surface < finished ? of_all + of_ground : of_all;
+        return surface >= ground_surface && surface < finished ? errors.all + errors.ground : errors.all;
     }
-    // How far samples' green is from the mean of their pixel, on average.
     const std::uint32_t* colors = &cell.surface[block * most_samples * block_pixels];
     int off = 0;
     for (int pixel = 0; pixel < block_pixels; ++pixel) {
@@ -177,7 +175,7 @@ float expected_error(const Cell<most_samples>& cell, std::size_t block) {
         const int sum = std::accumulate(green.begin(), green.end(), 0);
         for (const int one : green) off += std::abs(most_samples * one - sum);
     }
-    return of_all + of_unrest * static_cast<float>(off) / (255.0f * most_samples * most_samples * block_pixels);
+    return errors.all + errors.unrest * static_cast<float>(off) / (255.0f * most_samples * most_samples * block_pixels);
 }
 
 }  // namespace
@@ -207,8 +205,20 @@ void Backdrop::paint_cell(const Tile& tile, int cell_x, int cell_y, BackdropPict
             copy_block(block.depth, x, y, end_y, out.depth);
             out.farthest.row(y / block_side)[x / block_side] = block.farthest;
             if (is_judged(x / block_side, y / block_side))
-                out.error.row(y / block_side)[x / block_side] = expected_error(cell, cell.block(column, row));
+                out.error.row(y / block_side)[x / block_side] = expected_error(cell, cell.block(column, row), errors_);
         }
+}
+
+double mean_error(const BackdropPicture& picture) {
+    double sum = 0;
+    int judged = 0;
+    for (int row = 0; row < blocks_across(picture.height); ++row)
+        for (int column = 0; column < blocks_across(picture.width); ++column) {
+            if (!is_judged(column, row)) continue;
+            sum += static_cast<double>(picture.error.row(row)[column]);
+            ++judged;
+        }
+    return judged > 0 ? sum / judged : 0;
 }
 
 }  // namespace render::native

@@ -15,10 +15,19 @@
 
 namespace render::native {
 
+// Mean FLIP of what shows beside people, expected block by block: of everything, added where ground shows, and for each
+// unit of unrest, which is how far samples' green is from the mean of their pixel, on average [of 1]. Four samples of
+// what is restless are too few, and ground is shaded once a pixel. Fitted to pictures without people
+// (docs/measurements/loss.md).
+struct BackdropErrors {
+    float all = 0.0017f, ground = 0.0132f, unrest = 0.95f;
+};
+
 class Backdrop {
 public:
     // Copies what it needs. Throws std::runtime_error when there is no native form of the ground's shader.
-    Backdrop(const scene::StaticMesh& structure, const scene::Ground& ground, const scene::Light& light);
+    Backdrop(const scene::StaticMesh& structure, const scene::Ground& ground, const scene::Light& light,
+             const BackdropErrors& errors = {});
 
     // Readies a view, told from the structure's origin, for painting; of at most largest_picture either way. Runs on
     // the threads of the caller's arena; the result is the same for any number of them. Allocates only where a view
@@ -57,6 +66,7 @@ private:
 
     scene::Ground ground_;
     scene::Light light_;
+    BackdropErrors errors_;
     std::vector<Part> parts_;
     std::size_t painted_parts_ = 0;  // come first, then ground
 
@@ -67,5 +77,8 @@ private:
     std::vector<std::uint32_t> surface_offsets_;            // of parts in view
     std::int64_t triangles_ = 0;
 };
+
+// Of a picture that is painted: the mean of what is expected of its judged blocks.
+double mean_error(const BackdropPicture& picture);
 
 }  // namespace render::native

@@ -45,18 +45,6 @@ std::uint64_t digest_of(std::span<const Person> people) {
     return digest;
 }
 
-double expected_error(const BackdropPicture& picture) {
-    double sum = 0;
-    int judged = 0;
-    for (int row = 0; row < blocks_across(picture.height); ++row)
-        for (int column = 0; column < blocks_across(picture.width); ++column) {
-            if (!is_judged(column, row)) continue;
-            sum += static_cast<double>(picture.error.row(row)[column]);
-            ++judged;
-        }
-    return judged > 0 ? sum / judged : 0;
-}
-
 }  // namespace
 
 Renderer::Renderer(const scene::StaticMesh& structure, const scene::Ground& ground, const scene::Light& light,
@@ -91,7 +79,7 @@ Surroundings Renderer::begin(const View& view) {
         for_each_tile(grid_.count(), [&](std::size_t tile) { backdrop_.paint(grid_.tile(tile), behind_); });
         out.work[sfsm::WorkKind::structure_triangle] = backdrop_.triangles();
         out.work[sfsm::WorkKind::pixel] = std::int64_t{width_} * height_;
-        background_error_ = expected_error(behind_);
+        background_error_ = mean_error(behind_);
         has_backdrop_ = true;
         has_picture_ = false;
     }
