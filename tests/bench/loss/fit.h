@@ -1,0 +1,16 @@
+// The constants of what is expected, fitted to what was measured of pictures of presets.
+#pragma once
+
+#include "tests/bench/loss/model.h"
+
+namespace bench::loss {
+
+// To views of nobody, each by its relative error.
+render::native::BackdropErrors fit_backdrop(const std::vector<Picture>& pictures);
+
+// From `start`; constants that are 0 stay so. A picture counts by the relative error of what is expected of it, and its
+// classes of people, together a third as much, by theirs.
+figures::ExpectedError fit_people(const Measured& measured, const render::native::BackdropErrors& around,
+                                  const figures::ExpectedError& start);
+
+}  // namespace bench::loss
