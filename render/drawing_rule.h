@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "figures/choices.h"
 #include "scene/crowd.h"
@@ -17,6 +18,9 @@ struct Subject {
     float surface = 0;           // [px^2] of all of it; infinite of who is too near to be simplified
     float demand = 0;            // at S = 1 px (figures/representation.h)
     float place = 0;             // Exchange::place_of the share of them that others leave to be seen
+    bool is_block = false;       // of all in a block that may be drawn as one
+    // [model units] How far off their surface may be drawn at most: of a block whoever of it is nearest and largest.
+    float allowed = std::numeric_limits<float>::infinity();
 };
 
 class DrawingRule {

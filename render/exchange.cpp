@@ -76,6 +76,12 @@ double best_spacing(const figures::Way& way, double rate, double cell) {
     });
 }
 
+// From the first step on; of what is no rate 0.
+double steps_at(double rate) {
+    const double at = steps_per_octave * std::log2(rate / first_rate);
+    return at > 0 ? std::min(at, Exchange::steps - 1.0) : 0;
+}
+
 float between(float a, float b, float share) {
     return a + share * (b - a);
 }
@@ -83,8 +89,15 @@ float between(float a, float b, float share) {
 }  // namespace
 
 double Exchange::rate_of(int step) {
-    constexpr double digits = 1e6;  // traces keep them all
-    return std::round(digits * first_rate * std::exp2(step / steps_per_octave)) / digits;
+    static const auto rates = [] {
+        constexpr double digits = 1e6;  // traces keep them all
+        std::array<double, steps> all{};
+        for (int i = 0; i < steps; ++i)
+            all[static_cast<std::size_t>(i)] =
+                std::round(digits * first_rate * std::exp2(i / steps_per_octave)) / digits;
+        return all;
+    }();
+    return rates[static_cast<std::size_t>(step)];
 }
 
 float Exchange::share_of(int place) {
@@ -92,7 +105,8 @@ float Exchange::share_of(int place) {
 }
 
 float Exchange::place_of(float share) {
-    return std::clamp(-static_cast<float>(shares_per_octave) * std::log2(share), 0.0f, static_cast<float>(shares - 1));
+    const float place = -static_cast<float>(shares_per_octave) * std::log2(share);
+    return place > 0 ? std::min(place, static_cast<float>(shares - 1)) : 0.0f;
 }
 
 Exchange::Exchange(std::span<const Kind> kinds, const figures::Way& way) : cells_{1} {
@@ -135,12 +149,14 @@ Exchange::Terms::Sizes Exchange::Terms::sizes(std::size_t kind, float place) con
     return {std::exp2(between(spacings[low], spacings[low + 1], share)), of_kind(meshes_from), of_kind(splats_to)};
 }
 
+// Rates of steps are rounded: none may be missed for that.
 int Exchange::step_below(double rate) {
-    return static_cast<int>(std::clamp(steps_per_octave * std::log2(rate / first_rate), 0.0, steps - 1.0));
+    constexpr double rounding = 2e-3;
+    return static_cast<int>(steps_at(rate) + rounding);
 }
 
 void Exchange::find_terms(double rate, std::size_t cell, Terms& terms) const {
-    const double at = std::clamp(steps_per_octave * std::log2(rate / first_rate), 0.0, steps - 1.0);
+    const double at = steps_at(rate);
     const int low = std::min(static_cast<int>(at), steps - 2);
     const auto share = static_cast<float>(at - low);
     const Terms &a = at_step(low, cell), &b = at_step(low + 1, cell);

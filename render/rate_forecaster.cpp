@@ -1,33 +1,29 @@
 #include "render/rate_forecaster.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
+
+#include "render/octaves.h"
 
 namespace render {
 
 namespace {
 
-constexpr double first_size = -8, bins_per_octave = 4;
-constexpr float first_place = -4, places_per_octave = 2;
-constexpr std::array periods = {1, 2, 3, 4, 6, 8, 12, 16, 24, motion::max_period};
+constexpr float first_size = -8, bins_per_octave = 4;
 
-// The bits of a positive float are its logarithm, piecewise linear: near enough, and free.
-constexpr int mantissa_bits = 23;
-
-float octaves(float value) {
-    constexpr float one = 1 << mantissa_bits;
-    return static_cast<float>(std::bit_cast<std::uint32_t>(value)) / one - 127;
+float bin_at(float surface) {
+    return (octaves(surface) - first_size) * bins_per_octave;
 }
 
-double bin_at(float surface) {
-    return (static_cast<double>(octaves(surface)) - first_size) * bins_per_octave;
+// Of a place among bins, which may lie between them.
+double size_of(double bin) {
+    const double octave = bin / static_cast<double>(bins_per_octave), whole = std::floor(octave);
+    return std::exp2(static_cast<double>(first_size) + whole) * (1 + octave - whole);
 }
 
-double size_of(int bin) {
-    const double octave = (bin + 0.5) / bins_per_octave, whole = std::floor(octave);
-    return std::exp2(first_size + whole) * (1 + octave - whole);
+double middle_of(std::size_t bin) {
+    return size_of(static_cast<double>(bin) + 0.5);
 }
 
 // To so many parts of one: traces keep every digit.
@@ -35,100 +31,172 @@ double rounded(double value, double parts) {
     return std::isfinite(value) ? std::round(parts * value) / parts : value;
 }
 
-// The share of a bin that lies above a place among bins.
-double share_above(int bin, double place) {
-    return std::clamp(bin + 1 - place, 0.0, 1.0);
-}
-
 }  // namespace
 
-int Paces::place_of(float pixels_per_metre) {
-    const float place = places_per_octave * (octaves(pixels_per_metre) - first_place);
-    return static_cast<int>(std::clamp(place, 0.0f, static_cast<float>(places - 1)));
-}
-
-RateForecaster::RateForecaster(std::vector<Kind> kinds, const figures::Way& way, double max_error)
+RateForecaster::RateForecaster(std::vector<Kind> kinds, const figures::Way& way)
     : kinds_(std::move(kinds)),
       way_(&way),
-      mesh_errors_(kinds_.size()),
-      splat_errors_(kinds_.size()),
-      max_error_(max_error),
-      rows_(kinds_.size() * Exchange::shares * 2),
-      motion_(kinds_.size()),
-      paces_(kinds_.size()) {
+      prices_(kinds_.size()),
+      ends_(kinds_.size()),
+      rows_(kinds_.size() * Exchange::shares * 2) {
     std::vector<Exchange::Kind> exchanged;
-    for (std::size_t i = 0; i < kinds_.size(); ++i) {
-        const Exchange::Kind& kind = exchanged.emplace_back(kinds_[i].exchanged);
-        for (int bin = 0; bin < size_bins; ++bin) {
-            const double height = kind.height * std::sqrt(size_of(bin) / kind.area);
-            mesh_errors_[i][static_cast<std::size_t>(bin)] = way.error.of_mesh(height);
-            splat_errors_[i][static_cast<std::size_t>(bin)] = way.error.of_splat(height);
-        }
+    std::vector<PaceForecaster::Kind> moved;
+    for (const Kind& kind : kinds_) {
+        exchanged.push_back(kind.exchanged);
+        moved.push_back({kind.staleness, kind.bounds, kind.exchanged.area, kind.reach});
     }
     exchange_ = Exchange(exchanged, way);
+    movers_ = PaceForecaster(std::move(moved), way);
+    know_kinds();
+    know_places();
+    know_levels();
 }
 
-// Aside of the picture's middle what is off by some metres is off by more pixels, and so is what is nearer than a
-// person's middle: of whom is four radii away by a third.
-void RateForecaster::begin(const View& view) {
-    constexpr double nearer = 4.0 / 3;
+void RateForecaster::know_kinds() {
+    for (std::size_t i = 0; i < kinds_.size(); ++i) {
+        const Exchange::Kind& kind = kinds_[i].exchanged;
+        const sfsm::Work& mesh = kind.choices->all()[kind.choices->exact()].level.work;
+        Prices& prices = prices_[i];
+        prices.triangles = static_cast<double>(mesh[sfsm::WorkKind::triangle]);
+        prices.mesh_singles = static_cast<double>(mesh[sfsm::WorkKind::single]);
+        prices.most = static_cast<double>(kind.choices->most_samples());
+        prices.by_ones = !(prices.most > 0) || kind.choices->all()[kind.choices->samples_at(1)].level.by_ones;
+        for (std::size_t bin = 0; bin < size_bins; ++bin) {
+            const double height = kind.height * std::sqrt(middle_of(bin) / kind.area);
+            prices.mesh_errors[bin] = way_->error.of_mesh(height);
+            prices.splat_errors[bin] = way_->error.of_splat(height);
+        }
+        find_ends(i, {});
+    }
+}
+
+void RateForecaster::know_places() {
+    for (std::size_t cell = 0; cell < exchange_.cells().size(); ++cell)
+        for (int step = 0; step < Exchange::steps; ++step)
+            for (int place = 0; place < Exchange::shares; ++place)
+                for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
+                    const auto sizes = exchange_.at_step(step, cell).sizes(kind, static_cast<float>(place));
+                    places_.push_back({bin_at(sizes.mesh_from), bin_at(sizes.splat_to)});
+                }
+}
+
+// Everybody of a bin is between two levels somewhere: the mean over the bin.
+void RateForecaster::know_levels() {
+    constexpr int parts = 8;
+    for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
+        const figures::Choices& choices = *kinds_[kind].exchanged.choices;
+        prices_[kind].first_levels = levels_.size();
+        for (int step = 0; step < Exchange::steps && !prices_[kind].by_ones; ++step) {
+            Levels& levels = levels_.emplace_back();
+            const double spacing = static_cast<double>(exchange_.at_step(step, 0).spacing);
+            for (std::size_t bin = 0; bin < size_bins; ++bin)
+                for (int part = 0; part < parts; ++part) {
+                    const double size = size_of(static_cast<double>(bin) + (part + 0.5) / parts);
+                    const auto demand = static_cast<float>(size / (spacing * spacing));
+                    const figures::Level& level = choices.all()[choices.samples_at(demand)].level;
+                    const auto count = static_cast<double>(level.work[sfsm::WorkKind::point]);
+                    levels.counts[bin] += count / parts;
+                    levels.errors[bin] += way_->error.of_points(std::sqrt(size / count), 1) / parts;
+                }
+        }
+    }
+}
+
+// Under no limit only few points and many are ends.
+void RateForecaster::find_ends(std::size_t kind, const ErrorLimit& limit) {
+    const Kind& of = kinds_[kind];
+    Ends& ends = ends_[kind];
+    const double most = prices_[kind].most;
+    ends.few_errors.resize(exchange_.cells().size());
+    ends.most_errors.resize(exchange_.cells().size());
+    ends.mesh_from = ends.splat_to = size_bins;
+    for (std::size_t bin = 0; bin < size_bins; ++bin) {
+        const double size = middle_of(bin);
+        const float allowed = limit.off_of(of.reach, std::sqrt(size / of.exchanged.area));
+        const auto least = static_cast<double>(least_samples(kind, allowed));
+        if (!(least <= most)) ends.mesh_from = std::min(ends.mesh_from, static_cast<double>(bin));
+        if (!may_be_splat(kind, allowed)) ends.splat_to = std::min(ends.splat_to, static_cast<double>(bin));
+        ends.fewest[bin] = std::min(std::max<double>(least, prices_[kind].by_ones ? figures::fewest_points : 1), most);
+        for (std::size_t cell = 0; cell < exchange_.cells().size() && most > 0; ++cell) {
+            const auto error = [&](double count) {
+                return way_->error.of_points(std::sqrt(size / count), exchange_.cells()[cell]);
+            };
+            ends.few_errors[cell][bin] = error(ends.fewest[bin]);
+            ends.most_errors[cell][bin] = error(most);
+        }
+    }
+}
+
+void RateForecaster::begin(const View& view, const ErrorLimit& limit) {
+    limit_ = limit;
+    if (limit.is_set() || is_limited_)
+        for (std::size_t kind = 0; kind < kinds_.size(); ++kind) find_ends(kind, limit);
+    is_limited_ = limit.is_set();
     pixels_ = static_cast<double>(view.width) * view.height;
-    allowed_ = max_error_ /
-               (nearer * std::hypot(1.0, static_cast<double>(view.tan_half_x), static_cast<double>(view.tan_half_y)));
     shown_ = 0;
+    near_ = {};
     for (Row& row : rows_) {
-        for (int bin = row.first; bin <= row.last; ++bin) row.bins[static_cast<std::size_t>(bin)] = {};
+        for (int bin = row.first; bin <= row.last; ++bin) {
+            const auto at = static_cast<std::size_t>(bin);
+            row.people[at] = row.surface[at] = row.shown[at] = 0;
+        }
         row.first = size_bins;
         row.last = -1;
     }
-    for (auto& roles : motion_) roles.fill({});
+    movers_.begin();
 }
 
+// Who is between two of the shares that are known counts in part with either.
 void RateForecaster::add(const Group& group) {
     if (group.people <= 0) return;
-    const auto people = static_cast<double>(group.people), surface = static_cast<double>(group.surface);
-    const double shown = people * surface / 4 * static_cast<double>(group.share) * static_cast<double>(group.on_screen);
+    const auto people = static_cast<double>(group.people), surface = people * static_cast<double>(group.surface);
+    const double shown = 0.25 * surface * static_cast<double>(group.share * group.on_screen);
     shown_ += shown;
+    movers_.add(group.kind, group.role, group.people, shown, group.depth, group.pixels_per_metre, group.surface);
     const int bin = std::clamp(static_cast<int>(bin_at(group.surface)), 0, size_bins - 1);
-    const auto place = static_cast<int>(group.place + 0.5f);
-    Row& into = rows_[index_of(group.kind, place, group.is_block)];
-    into.first = std::min(into.first, bin);
-    into.last = std::max(into.last, bin);
-    Bin& sum = into.bins[static_cast<std::size_t>(bin)];
-    sum.people += group.people;
-    sum.surface += people * surface;
-    sum.shown += shown;
-    Motion& motion = motion_[group.kind][static_cast<std::size_t>(group.role)]
-                            [static_cast<std::size_t>(Paces::place_of(group.pixels_per_metre))];
-    motion.nearest = motion.people == 0 ? group.depth : std::min(motion.nearest, group.depth);
-    motion.pixels_per_metre = std::max(motion.pixels_per_metre, group.pixels_per_metre);
-    motion.largest_pixels = std::max(motion.largest_pixels,
-                                     std::sqrt(group.surface / static_cast<float>(kinds_[group.kind].exchanged.area)));
-    motion.people += group.people;
-    motion.shown += shown;
+    const auto at = static_cast<std::size_t>(bin);
+    if (group.is_near) {
+        near_.triangles += people * prices_[group.kind].triangles;
+        near_.singles += people * prices_[group.kind].mesh_singles;
+        near_.error += shown * prices_[group.kind].mesh_errors[at];
+        return;
+    }
+    const int place = std::min(static_cast<int>(group.place), Exchange::shares - 2);
+    const double next = static_cast<double>(group.place) - place;
+    add_to(rows_[index_of(group.kind, place, group.is_block)], at,
+           {(1 - next) * people, (1 - next) * surface, (1 - next) * shown});
+    if (next > 0)
+        add_to(rows_[index_of(group.kind, place + 1, group.is_block)], at,
+               {next * people, next * surface, next * shown});
 }
 
-float RateForecaster::least_samples(std::size_t kind, float surface) const {
-    if (!std::isfinite(allowed_)) return 0;
-    const Kind& of = kinds_[kind];
-    const auto radius = static_cast<float>(allowed_ / std::sqrt(static_cast<double>(surface) / of.exchanged.area));
-    const auto most = static_cast<std::uint32_t>(of.exchanged.choices->most_samples());
-    if (!(of.bounds->covering.radius(most) <= radius)) return std::numeric_limits<float>::infinity();
+void RateForecaster::add_to(Row& row, std::size_t bin, const Amount& amount) {
+    row.first = std::min(row.first, static_cast<int>(bin));
+    row.last = std::max(row.last, static_cast<int>(bin));
+    row.people[bin] += amount.people;
+    row.surface[bin] += amount.surface;
+    row.shown[bin] += amount.shown;
+}
+
+float RateForecaster::least_samples(std::size_t kind, float allowed) const {
+    if (!std::isfinite(allowed)) return 0;
+    const Covering& covering = kinds_[kind].bounds->covering;
+    const auto most = static_cast<std::uint32_t>(choices(kind).most_samples());
+    if (!(covering.radius(most) <= allowed)) return std::numeric_limits<float>::infinity();
     std::uint32_t few = 0, enough = most;
     while (enough - few > 1) {
         const std::uint32_t middle = few + (enough - few) / 2;
-        (of.bounds->covering.radius(middle) <= radius ? enough : few) = middle;
+        (covering.radius(middle) <= allowed ? enough : few) = middle;
     }
     return static_cast<float>(enough);
 }
 
-bool RateForecaster::may_be_splat(std::size_t kind, float surface) const {
-    if (!std::isfinite(allowed_)) return true;
-    const Kind& of = kinds_[kind];
-    const double pixels = std::sqrt(static_cast<double>(surface) / of.exchanged.area);
-    double off = static_cast<double>(of.bounds->size);
-    for (const MotionBound& bound : of.bounds->motion.far) off = std::max(off, static_cast<double>(bound[1]));
-    return off * pixels <= allowed_;
+bool RateForecaster::may_be_splat(std::size_t kind, float allowed) const {
+    if (!std::isfinite(allowed)) return true;
+    const ErrorBounds& bounds = *kinds_[kind].bounds;
+    float off = bounds.size;
+    for (const MotionBound& bound : bounds.motion.far) off = std::max(off, bound[1]);
+    return off <= allowed;
 }
 
 double RateForecaster::covered() const {
@@ -136,47 +204,50 @@ double RateForecaster::covered() const {
 }
 
 std::span<const sfsm::RateStep> RateForecaster::finish() {
-    for (auto& roles : paces_.all())
-        for (auto& places : roles) places.fill(1);
+    const auto moves = movers_.finish(limit_);
     double most_loss = 0;
     std::size_t cell = 0;
-    for (int step = 0; step < Exchange::steps; ++step) {
-        sfsm::RateStep& out = steps_[static_cast<std::size_t>(step)];
+    for (std::size_t step = 0; step < Exchange::steps; ++step) {
+        sfsm::RateStep& out = steps_[step];
         out = {};
-        out.rate = Exchange::rate_of(step);
-        Sum sum = price_shapes(step, cell);
-        cells_[static_cast<std::size_t>(step)] = cell;
-        price_motion(step, out, sum.error);
-        out.work[sfsm::WorkKind::triangle] = std::llround(sum.triangles);
-        out.work[sfsm::WorkKind::point] = std::llround(sum.points);
-        out.work[sfsm::WorkKind::single] = std::llround(sum.singles);
-        constexpr double usual_density = 1.2;
-        if (sum.simplified) {
-            out.splat_size =
-                std::min(std::sqrt(usual_density * sum.sampled / (sum.points + sum.splats)), sfsm::max_splat_size);
-            out.state = sfsm::State::points;
-        } else if (std::isfinite(out.motion_distance)) {
-            out.state = sfsm::State::slowed;
-        }
-        most_loss = out.loss = std::max(most_loss, rounded(sum.error / pixels_, 1e6));
-        out.splat_size = rounded(out.splat_size, 1e3);
-        out.motion_distance = rounded(out.motion_distance, 10);
+        out.rate = Exchange::rate_of(static_cast<int>(step));
+        const Sum sum = price_shapes(step, cell);
+        cells_[step] = cell;
+        describe(sum, moves[step], out);
+        most_loss = out.loss = std::max(most_loss, out.loss);
     }
     return steps_;
 }
 
+void RateForecaster::describe(const Sum& sum, const PaceForecaster::Price& moves, sfsm::RateStep& out) const {
+    constexpr double usual_density = 1.2;
+    out.work[sfsm::WorkKind::triangle] = std::llround(sum.triangles);
+    out.work[sfsm::WorkKind::point] = std::llround(sum.points);
+    out.work[sfsm::WorkKind::single] = std::llround(sum.singles);
+    out.work[sfsm::WorkKind::motion_update] = std::llround(moves.updates);
+    out.motion_distance = rounded(moves.nearest, 10);
+    if (sum.simplified) {
+        const double size = std::sqrt(usual_density * sum.sampled / (sum.points + sum.splats));
+        out.splat_size = rounded(std::min(size, sfsm::max_splat_size), 1e3);
+        out.state = sfsm::State::points;
+    } else if (std::isfinite(out.motion_distance)) {
+        out.state = sfsm::State::slowed;
+    }
+    out.loss = rounded((sum.error + moves.error) / pixels_, 1e6);
+}
+
 // In the cells that cost least, but none finer than at lower rates. Cells take time by how many there are.
-RateForecaster::Sum RateForecaster::price_shapes(int step, std::size_t& cell) const {
-    const double rate = Exchange::rate_of(step);
+RateForecaster::Sum RateForecaster::price_shapes(std::size_t step, std::size_t& cell) const {
+    const double rate = Exchange::rate_of(static_cast<int>(step));
     const auto cost_of = [&](const Sum& sum, std::size_t at) {
         const double side = exchange_.cells()[at];
         const double resampled = at > 0 ? way_->effort.resampling * covered() * pixels_ / (side * side) : 0;
         return sum.error + rate * (sum.pieces(way_->effort) + resampled);
     };
-    Sum best = price_all(exchange_.at_step(step, cell));
+    Sum best = price_all(step, cell);
     double least = cost_of(best, cell);
     for (std::size_t at = cell + 1; at < exchange_.cells().size(); ++at) {
-        const Sum sum = price_all(exchange_.at_step(step, at));
+        const Sum sum = price_all(step, at);
         const double cost = cost_of(sum, at);
         if (!(cost < least)) break;
         best = sum;
@@ -186,114 +257,65 @@ RateForecaster::Sum RateForecaster::price_shapes(int step, std::size_t& cell) co
     return best;
 }
 
-RateForecaster::Sum RateForecaster::price_all(const Exchange::Terms& terms) const {
-    Sum sum;
-    for (std::size_t kind = 0; kind < kinds_.size(); ++kind)
-        for (int place = 0; place < Exchange::shares; ++place)
+RateForecaster::Sum RateForecaster::price_all(std::size_t step, std::size_t cell) const {
+    const Exchange::Terms& terms = exchange_.at_step(static_cast<int>(step), cell);
+    Sum sum = near_;
+    for (int place = 0; place < Exchange::shares; ++place) {
+        const double spacing = std::exp2(static_cast<double>(terms.spacings[static_cast<std::size_t>(place)]));
+        const double error = way_->error.of_points(spacing, static_cast<double>(terms.cell));
+        for (std::size_t kind = 0; kind < kinds_.size(); ++kind)
             for (const bool is_block : {false, true}) {
                 const Row& row = rows_[index_of(kind, place, is_block)];
-                if (row.first <= row.last) price_row(row, kind, place, is_block, terms, sum);
+                if (row.first <= row.last) price_row(row, kind, is_block, {step, cell, place, spacing, error}, sum);
             }
+    }
     return sum;
 }
 
-void RateForecaster::price_row(const Row& row, std::size_t kind, int place, bool is_block, const Exchange::Terms& terms,
+void RateForecaster::price_row(const Row& row, std::size_t kind, bool is_block, const Setting& setting,
                                Sum& sum) const {
-    const figures::Choices& choices = *kinds_[kind].exchanged.choices;
-    const Exchange::Terms::Sizes sizes = terms.sizes(kind, static_cast<float>(place));
-    const auto spacing = static_cast<double>(sizes.spacing), cell = static_cast<double>(terms.cell);
-    const double mesh_from = bin_at(sizes.mesh_from);
-    const double splat_to = is_block ? bin_at(sizes.splat_to) : 0;
-    const sfsm::Work& mesh = choices.all()[choices.exact()].level.work;
-    const double points_error = way_->error.of_points(spacing, cell);
-    const double cell_factor = way_->error.times_in_cells(cell);
-    for (int bin = row.first; bin <= row.last; ++bin) {
-        const auto index = static_cast<std::size_t>(bin);
-        const Bin& of = row.bins[index];
-        if (of.people == 0) continue;
-        const auto people = static_cast<double>(of.people);
-        const auto surface = static_cast<float>(of.surface / people);
-        const float least = least_samples(kind, surface);
-        const double as_splats = is_block && may_be_splat(kind, surface) ? 1 - share_above(bin, splat_to) : 0;
-        const double as_mesh = (1 - as_splats) * (least > choices.most_samples() ? 1 : share_above(bin, mesh_from));
+    const Prices& prices = prices_[kind];
+    const Ends& ends = ends_[kind];
+    const Levels* levels = prices.by_ones ? nullptr : &levels_[prices.first_levels + setting.step];
+    const Places places = places_of(setting, kind);
+    const double mesh_from = std::min(static_cast<double>(places.mesh_from), ends.mesh_from);
+    const double splat_to = is_block ? std::min(static_cast<double>(places.splat_to), ends.splat_to) : 0;
+    const double points_a_pixel = 1 / (setting.spacing * setting.spacing);
+    const double splat_factor = way_->error.times_in_cells(exchange_.cells()[setting.cell]);
+    const Bins &few_errors = ends.few_errors[setting.cell], &most_errors = ends.most_errors[setting.cell];
+    double meshed = 0, pointed = 0, splatted = 0, points = 0, sampled = 0, error = 0;
+    for (auto bin = static_cast<std::size_t>(row.first); bin <= static_cast<std::size_t>(row.last); ++bin) {
+        const double people = row.people[bin], at = static_cast<double>(bin);
+        const double as_splats = std::clamp(splat_to - at, 0.0, 1.0);
+        const double as_mesh = (1 - as_splats) * std::clamp(at + 1 - mesh_from, 0.0, 1.0);
         const double as_points = 1 - as_splats - as_mesh;
-        sum.triangles += as_mesh * people * static_cast<double>(mesh[sfsm::WorkKind::triangle]);
-        sum.singles += as_mesh * people * static_cast<double>(mesh[sfsm::WorkKind::single]);
-        sum.error += of.shown * (as_mesh * mesh_errors_[kind][index] + as_points * points_error +
-                                 as_splats * splat_errors_[kind][index] * cell_factor);
-        if (as_splats > 0) {
-            sum.splats += as_splats * people;
-            sum.sampled += as_splats * of.surface;
-            sum.simplified = true;
+        double asked = row.surface[bin] * points_a_pixel, points_error = setting.error;
+        if (levels) asked = people * levels->counts[bin], points_error = levels->errors[bin];
+        const double few = people * ends.fewest[bin], most = people * prices.most;
+        if (asked < few) {
+            asked = few;
+            points_error = few_errors[bin];
+        } else if (asked > most) {
+            asked = most;
+            points_error = most_errors[bin];
+        } else if (!levels) {
+            asked += 0.5 * people;  // each has a last point in part
         }
-        if (as_points > 0) {
-            const float demand = std::max(surface / (sizes.spacing * sizes.spacing), least);
-            const figures::Level& level = choices.all()[choices.samples_at(demand)].level;
-            const double count =
-                level.by_ones ? std::clamp<double>(demand, std::min(figures::fewest_points, level.count), level.count)
-                              : static_cast<double>(level.work[sfsm::WorkKind::point]);
-            sum.points += as_points * people * count;
-            sum.singles += as_points * people * static_cast<double>(level.work[sfsm::WorkKind::single]);
-            sum.sampled += as_points * of.surface;
-            sum.simplified = true;
-        }
+        meshed += as_mesh * people;
+        pointed += as_points * people;
+        splatted += as_splats * people;
+        points += as_points * asked;
+        sampled += (1 - as_mesh) * row.surface[bin];
+        error += row.shown[bin] * (as_mesh * prices.mesh_errors[bin] + as_points * points_error +
+                                   as_splats * prices.splat_errors[bin] * splat_factor);
     }
-}
-
-bool RateForecaster::may_wait(const Kind& kind, std::size_t role, const Motion& motion, int period) const {
-    if (!std::isfinite(allowed_)) return true;
-    const float off = kind.bounds->motion.single[role][static_cast<std::size_t>(period)] * motion.largest_pixels;
-    return static_cast<double>(off) <= allowed_;
-}
-
-// The period of least cost from `from` on: error that a late surface makes, against updates.
-int RateForecaster::best_period(const Kind& kind, std::size_t role, const Motion& motion, double rate, int from) const {
-    const auto people = static_cast<double>(motion.people);
-    const auto cost = [&](int period) {
-        const double off =
-            static_cast<double>(kind.staleness[role][static_cast<std::size_t>(period)] * motion.pixels_per_metre);
-        return motion.shown * way_->error.of_motion(off) + rate * people * way_->effort.update / period;
-    };
-    int best = from;
-    double least = cost(from);
-    for (const int period : periods) {
-        if (period <= from) continue;
-        if (!may_wait(kind, role, motion, period)) break;
-        const double here = cost(period);
-        if (here < least) least = here, best = period;
-    }
-    return best;
-}
-
-void RateForecaster::price_motion(int step, sfsm::RateStep& out, double& error) {
-    double updates = 0;
-    out.motion_distance = std::numeric_limits<double>::infinity();
-    for (std::size_t kind = 0; kind < kinds_.size(); ++kind)
-        for (std::size_t role = 0; role < scene::role_count; ++role)
-            for (int place = 0; place < Paces::places; ++place) {
-                const Motion& motion = motion_[kind][role][static_cast<std::size_t>(place)];
-                if (motion.people == 0) continue;
-                int& period = paces_.period(kind, role, place);
-                period = best_period(kinds_[kind], role, motion, Exchange::rate_of(step), period);
-                updates += static_cast<double>(motion.people) / period;
-                if (period == 1) continue;
-                const double off = static_cast<double>(kinds_[kind].staleness[role][static_cast<std::size_t>(period)] *
-                                                       motion.pixels_per_metre);
-                error += motion.shown * way_->error.of_motion(off);
-                out.motion_distance = std::min(out.motion_distance, static_cast<double>(motion.nearest));
-            }
-    out.work[sfsm::WorkKind::motion_update] = std::llround(updates);
-}
-
-void RateForecaster::find_paces(double rate, Paces& paces) const {
-    paces.all().resize(kinds_.size());
-    for (std::size_t kind = 0; kind < kinds_.size(); ++kind)
-        for (std::size_t role = 0; role < scene::role_count; ++role)
-            for (int place = 0; place < Paces::places; ++place) {
-                const Motion& motion = motion_[kind][role][static_cast<std::size_t>(place)];
-                paces.period(kind, role, place) =
-                    motion.people == 0 ? 1 : best_period(kinds_[kind], role, motion, rate, 1);
-            }
+    sum.triangles += meshed * prices.triangles;
+    sum.singles += meshed * prices.mesh_singles + pointed;
+    sum.splats += splatted;
+    sum.points += points;
+    sum.sampled += sampled;
+    sum.error += error;
+    sum.simplified |= pointed + splatted > 0;
 }
 
 }  // namespace render

@@ -1,6 +1,6 @@
 // What each rate of exchange would draw and lose: classes of visible people, solved by the exchange (exchange.h). A
-// class is everybody of one character and about the same size on the screen of whom about the same share shows; for
-// motion everybody of one character and role who is about as far.
+// class is everybody of one character and about the same size on the screen of whom about the same share shows; how
+// they move is of other classes (paces.h).
 #pragma once
 
 #include <array>
@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "render/error_bounds.h"
+#include "render/error_limit.h"
 #include "render/exchange.h"
+#include "render/paces.h"
 #include "render/staleness.h"
 #include "render/view.h"
 #include "scene/crowd.h"
@@ -17,45 +19,28 @@
 
 namespace render {
 
-// How often people move, class by class: update periods [ticks].
-class Paces {
-public:
-    explicit Paces(std::size_t kinds = 0) : periods_(kinds) {}
-
-    static constexpr int places = 32;  // half octaves of pixels that a metre covers, from 2^-4 on
-    static int place_of(float pixels_per_metre);
-
-    int& period(std::size_t kind, std::size_t role, int place) {
-        return periods_[kind][role][static_cast<std::size_t>(place)];
-    }
-    auto& all() { return periods_; }
-    int period(std::size_t kind, scene::Role role, float pixels_per_metre) const {
-        return periods_[kind][static_cast<std::size_t>(role)][static_cast<std::size_t>(place_of(pixels_per_metre))];
-    }
-
-private:
-    std::vector<std::array<std::array<int, places>, scene::role_count>> periods_;
-};
-
 class RateForecaster {
 public:
     struct Kind {
         Exchange::Kind exchanged;
         std::array<Staleness, scene::role_count> staleness{};  // by role
         const ErrorBounds* bounds = nullptr;
+        float reach = 0;  // of a person from their middle [model units]
     };
 
     RateForecaster() = default;
-    // `way` must outlive it. `max_error` [px] > 0: that nobody's surface may be off by more, moved or covered too late
-    // or too coarsely; infinite for no such limit.
-    RateForecaster(std::vector<Kind> kinds, const figures::Way& way, double max_error);
+    // `way` must outlive it.
+    RateForecaster(std::vector<Kind> kinds, const figures::Way& way);
 
     const Exchange& exchange() const { return exchange_; }
     const figures::Choices& choices(std::size_t kind) const { return *kinds_[kind].exchanged.choices; }
+    const ErrorBounds& bounds(std::size_t kind) const { return *kinds_[kind].bounds; }
     bool has_cells() const { return way_->has_cells; }
-    // What max_error asks of somebody whose surface [px^2] is that large.
-    float least_samples(std::size_t kind, float surface) const;
-    bool may_be_splat(std::size_t kind, float surface) const;
+
+    // Of somebody whose surface may be drawn so far off [model units]: points that they need at least, infinite if no
+    // number will do; and whether they may be a splat.
+    float least_samples(std::size_t kind, float allowed) const;
+    bool may_be_splat(std::size_t kind, float allowed) const;
 
     // People who are alike.
     struct Group {
@@ -63,6 +48,7 @@ public:
         scene::Role role{};
         std::int64_t people = 0;
         bool is_block = false;       // who may be drawn as one
+        bool is_near = false;        // who are meshes at any rate
         float depth = 0;             // [m] view depth
         float pixels_per_metre = 0;  // there
         float surface = 0;           // [px^2] of each; a quarter is their silhouette
@@ -71,8 +57,8 @@ public:
         float on_screen = 1;         // share of a silhouette that is on the screen
     };
 
-    // Forgets the last frame.
-    void begin(const View& view);
+    // Forgets the last frame. `limit`: of that view.
+    void begin(const View& view, const ErrorLimit& limit);
     void add(const Group& group);
     // Of all who were added; valid until the next begin().
     std::span<const sfsm::RateStep> finish();
@@ -82,24 +68,39 @@ public:
     // After finish(): in which of Exchange::cells() points are added up at a rate.
     std::size_t cell_of(double rate) const { return cells_[static_cast<std::size_t>(Exchange::step_below(rate))]; }
     // After finish(): who moves how often at a rate.
-    void find_paces(double rate, Paces& paces) const;
+    void find_paces(double rate, Paces& paces) const { movers_.find(rate, paces); }
 
 private:
     static constexpr int size_bins = 136;  // quarter octaves of surface, from 2^-8 px^2 on
-    struct Bin {
-        std::int64_t people = 0;
-        double surface = 0, shown = 0;  // [px^2] together; silhouettes' pixels that show
+    using Bins = std::array<double, size_bins>;
+    struct Amount {
+        double people, surface, shown;
     };
     // Of a kind and a share, those alone and those of blocks.
     struct Row {
         int first = size_bins, last = -1;
-        std::array<Bin, size_bins> bins{};
+        Bins people{}, surface{}, shown{};  // together: [px^2], and silhouettes' pixels that show
     };
-    struct Motion {
-        std::int64_t people = 0;
-        double shown = 0;  // [px]
-        float nearest = 0, pixels_per_metre = 0;
-        float largest_pixels = 0;  // that a model unit of somebody covers
+    // What never changes of a kind. Errors are those of people of a bin's size.
+    struct Prices {
+        double triangles = 0, mesh_singles = 0, most = 0;  // of a person; points at most
+        Bins mesh_errors{}, splat_errors{};
+        bool by_ones = true;  // any number of points; else as levels_ from a place on, step by step
+        std::size_t first_levels = 0;
+    };
+    // Of a person of a bin's size as points: at least so many, and the errors of so many, or of all, by cell.
+    struct Ends {
+        Bins fewest{};
+        std::vector<Bins> few_errors, most_errors;
+        double mesh_from = size_bins, splat_to = size_bins;  // bins, for the limit's sake
+    };
+    // Points that come in levels: of a person of a bin's size at a step, and their error.
+    struct Levels {
+        Bins counts{}, errors{};
+    };
+    // Where a kind's representations change at a step [bins].
+    struct Places {
+        float mesh_from, splat_to;
     };
     struct Sum {
         double triangles = 0, points = 0, singles = 0, splats = 0, error = 0;
@@ -111,28 +112,46 @@ private:
                    effort.splat * splats;
         }
     };
+    // What prices a row at a step.
+    struct Setting {
+        std::size_t step, cell;
+        int place;
+        double spacing, error;  // [px] of points, and what they lose
+    };
 
     static std::size_t index_of(std::size_t kind, int place, bool is_block) {
         return (kind * Exchange::shares + static_cast<std::size_t>(place)) * 2 + (is_block ? 1 : 0);
     }
-    Sum price_shapes(int step, std::size_t& cell) const;
-    Sum price_all(const Exchange::Terms& terms) const;
-    void price_row(const Row& row, std::size_t kind, int place, bool is_block, const Exchange::Terms& terms,
-                   Sum& sum) const;
-    void price_motion(int step, sfsm::RateStep& out, double& error);
-    bool may_wait(const Kind& kind, std::size_t role, const Motion& motion, int period) const;
-    int best_period(const Kind& kind, std::size_t role, const Motion& motion, double rate, int from) const;
+    static void add_to(Row& row, std::size_t bin, const Amount& amount);
+    void know_kinds();
+    void know_places();
+    void know_levels();
+    void find_ends(std::size_t kind, const ErrorLimit& limit);
+    Places places_of(const Setting& setting, std::size_t kind) const {
+        return places_[((setting.cell * Exchange::steps + setting.step) * Exchange::shares +
+                        static_cast<std::size_t>(setting.place)) *
+                           kinds_.size() +
+                       kind];
+    }
+    Sum price_shapes(std::size_t step, std::size_t& cell) const;
+    Sum price_all(std::size_t step, std::size_t cell) const;
+    void price_row(const Row& row, std::size_t kind, bool is_block, const Setting& setting, Sum& sum) const;
+    void describe(const Sum& sum, const PaceForecaster::Price& moves, sfsm::RateStep& out) const;
 
     std::vector<Kind> kinds_;
     const figures::Way* way_ = nullptr;
     Exchange exchange_;
-    std::vector<std::array<double, size_bins>> mesh_errors_, splat_errors_;  // by kind
-    double max_error_ = 0, allowed_ = 0;  // [px] of a person's surface in the middle of the picture
+    std::vector<Prices> prices_;  // by kind
+    std::vector<Ends> ends_;      // by kind
+    std::vector<Levels> levels_;
+    std::vector<Places> places_;  // by cell, step, share and kind
+    bool is_limited_ = false;     // the last frame was
     double pixels_ = 1;
     double shown_ = 0;  // [px]
     std::vector<Row> rows_;
-    std::vector<std::array<std::array<Motion, Paces::places>, scene::role_count>> motion_;  // by kind
-    Paces paces_;
+    Sum near_;
+    PaceForecaster movers_;
+    ErrorLimit limit_;
     std::array<sfsm::RateStep, Exchange::steps> steps_;
     std::array<std::size_t, Exchange::steps> cells_{};
 };

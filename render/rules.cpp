@@ -37,7 +37,7 @@ void RateRule::decide(double rate, float density) {
 DrawingRule::Shape RateRule::shape_of(const Subject& subject) const {
     const figures::Choices& choices = forecaster_.choices(subject.character);
     const Exchange::Terms::Sizes sizes = terms_.sizes(subject.character, subject.place);
-    const float least = forecaster_.least_samples(subject.character, subject.surface);
+    const float least = forecaster_.least_samples(subject.character, subject.allowed);
     const float samples = std::max(subject.surface / (sizes.spacing * sizes.spacing), least);
     const bool is_mesh = !(subject.surface < sizes.mesh_from) || least > choices.most_samples();
     return {is_mesh ? choices.exact() : choices.samples_at(samples), samples};
@@ -45,11 +45,19 @@ DrawingRule::Shape RateRule::shape_of(const Subject& subject) const {
 
 bool RateRule::is_splat(const Subject& subject) const {
     return subject.surface <= terms_.sizes(subject.character, subject.place).splat_to &&
-           forecaster_.may_be_splat(subject.character, subject.surface);
+           forecaster_.may_be_splat(subject.character, subject.allowed);
 }
 
+// A class' period, unless that is too long for somebody.
 int RateRule::period_of(const Subject& subject) const {
-    return paces_.period(subject.character, subject.role, subject.pixels_per_metre);
+    const int wanted = paces_.period(subject.character, subject.role, subject.pixels_per_metre);
+    if (wanted == 1 || !std::isfinite(subject.allowed)) return wanted;
+    const MotionBounds& bounds = forecaster_.bounds(subject.character).motion;
+    const MotionBound& bound = (subject.is_block ? bounds.far : bounds.single)[static_cast<std::size_t>(subject.role)];
+    int best = 1;
+    for (const int period : paced_periods)
+        if (period <= wanted && bound[static_cast<std::size_t>(period)] <= subject.allowed) best = period;
+    return best;
 }
 
 }  // namespace render

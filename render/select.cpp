@@ -60,10 +60,11 @@ Selector::Selector(const scene::Crowd& crowd, std::span<const scene::CastMember>
         exchanged.push_back(
             {{&kinds_[i].choices, static_cast<double>(poses.area), static_cast<double>(poses.rest_height)},
              staleness[i],
-             &bounds_[i]});
+             &bounds_[i],
+             kinds_[i].radius});
     }
     forecaster_ = Forecaster(std::move(priced), *options_.way, options_.density);
-    rates_ = RateForecaster(std::move(exchanged), *options_.way, options_.max_error);
+    rates_ = RateForecaster(std::move(exchanged), *options_.way);
 }
 
 void Selector::know_blocks() {
@@ -139,6 +140,7 @@ const Survey& Selector::survey(const View& view, std::int64_t tick, const Surrou
     view_ = view;
     tick_ = tick;
     around_ = around;
+    limit_ = ErrorLimit(view, options_.max_error);
     survey_.hidden = 0;
     find_blocks();
     for_each_seen([&](Seen& seen) {
@@ -234,7 +236,7 @@ void Selector::find_range() {
 void Selector::forecast() {
     find_shares();
     forecaster_.begin(survey_.range);
-    rates_.begin(view_);
+    rates_.begin(view_, limit_);
     for (const Seen& seen : seen_) {
         if (seen.small) {
             forecast_as_one(seen);
@@ -249,6 +251,7 @@ void Selector::forecast() {
             one.pixels_per_metre = view_.pixels_per_metre(depth);
             one.surface = surface_of(person, depth);
             one.on_screen = on_screen(seen, person, one.surface);
+            one.is_near = std::isinf(demand);
             forecaster_.add(one.kind, one.role, depth, demand, one.pixels_per_metre);
             rates_.add(one);
         });
@@ -364,10 +367,14 @@ void Selector::choose(Seen& seen, const DrawingRule& rule, std::int64_t last_tic
 void Selector::choose_as_one(Seen& seen, const DrawingRule& rule, std::int64_t last_tick) {
     const scene::CrowdBlock& block = crowd_.blocks[seen.block];
     const float depth = std::max(view_.depth(relative(block.box.center(), seen.eye)), near_plane);
-    Subject subject = subject_of(groups_of(seen).front(), seen);
-    subject.depth = depth;
-    subject.pixels_per_metre = view_.pixels_per_metre(depth);
-    const auto [period, due] = moves_of(block.first, subject, rule);
+    int period = motion::max_period;
+    for (const Group& group : groups_of(seen)) {
+        Subject subject = subject_of(group, seen);
+        subject.depth = depth;
+        subject.pixels_per_metre = view_.pixels_per_metre(depth);
+        period = std::min(period, rule.period_of(subject));
+    }
+    const std::int64_t due = motion::due_tick(tick_, period, crowd_.hash[block.first]);
     const std::int64_t key_tick = motion::due_tick(due, ticks_a_key, crowd_.hash[block.first]);
     std::int64_t& known = blocks_[seen.block].key_tick;
     if (key_tick != known) {
@@ -412,14 +419,6 @@ double Selector::cell() const {
     return options_.way->has_cells ? std::max(1.0, figures::cell_share * frame_.splat_size) : 1;
 }
 
-// [px] At most, on the screen, of somebody who reaches so far [m] from their middle, for what is off by so much [m].
-// Aside of the picture's middle it is more.
-double Selector::pixels_of(float off, float radius, float depth) const {
-    const float nearest = std::max(depth - radius - off, near_plane);
-    const float aside = std::hypot(1.0f, view_.tan_half_x, view_.tan_half_y);
-    return static_cast<double>(aside * off * view_.pixels_per_metre(nearest));
-}
-
 void Selector::add_errors(std::size_t number, const Person& person, const Subject& subject, int period,
                           Seen& seen) const {
     const figures::Way& way = *options_.way;
@@ -432,15 +431,15 @@ void Selector::add_errors(std::size_t number, const Person& person, const Subjec
         error = way.error.of_mesh(static_cast<double>(height));
     } else {
         error = points_errors_.at(std::sqrt(surface / static_cast<float>(person.count)));
-        seen.errors.splat_px = std::max(seen.errors.splat_px,
-                                        pixels_of(scale * bounds.covering.radius(person.count), radius, person.depth));
+        seen.errors.splat_px = std::max(
+            seen.errors.splat_px, limit_.pixels(scale * bounds.covering.radius(person.count), radius, person.depth));
     }
     if (period > 1) {
         const auto role = static_cast<std::size_t>(subject.role), index = static_cast<std::size_t>(period);
         error += way.error.of_motion(
             static_cast<double>(kinds_[person.character].staleness[role][index] * subject.pixels_per_metre));
-        seen.errors.motion_px =
-            std::max(seen.errors.motion_px, pixels_of(scale * bounds.motion.single[role][index], radius, person.depth));
+        seen.errors.motion_px = std::max(
+            seen.errors.motion_px, limit_.pixels(scale * bounds.motion.single[role][index], radius, person.depth));
     }
     seen.errors.expected +=
         error * static_cast<double>(0.25f * surface * seen.share * on_screen(seen, number, surface));
@@ -450,7 +449,6 @@ void Selector::add_errors(const Group& group, const Subject& subject, int period
     const figures::Way& way = *options_.way;
     const Kind& kind = kinds_[group.character];
     const ErrorBounds& bounds = bounds_[group.character];
-    const Block& block = blocks_[seen.block];
     const auto role = static_cast<std::size_t>(group.role), index = static_cast<std::size_t>(period);
     const double height = static_cast<double>(std::sqrt(kind.mean_square) *
                                               figures_[group.character].poses->rest_height * subject.pixels_per_metre);
@@ -458,12 +456,10 @@ void Selector::add_errors(const Group& group, const Subject& subject, int period
         way.error.of_splat(height) * way.error.times_in_cells(cell()) +
         way.error.of_motion(static_cast<double>(kind.staleness[role][index] * subject.pixels_per_metre));
     seen.errors.expected += people * error * static_cast<double>(0.25f * subject.surface * seen.share);
-    const motion::Bounds& box = crowd_.blocks[seen.block].box;
-    const float nearest = std::max(depth_range(view_.from(crowd_.blocks[seen.block].origin), box).nearest, near_plane);
-    const float scale = block.tallest / figures_[group.character].poses->rest_height;
-    seen.errors.splat_px = std::max(seen.errors.splat_px, pixels_of(scale * bounds.size, 0.0f, nearest));
+    const float nearest = nearest_of(seen), scale = largest_of(seen, group);
+    seen.errors.splat_px = std::max(seen.errors.splat_px, limit_.pixels(scale * bounds.size, 0.0f, nearest));
     seen.errors.motion_px =
-        std::max(seen.errors.motion_px, pixels_of(scale * bounds.motion.far[role][index], 0.0f, nearest));
+        std::max(seen.errors.motion_px, limit_.pixels(scale * bounds.motion.far[role][index], 0.0f, nearest));
 }
 
 float Selector::scale_of(std::size_t person) const {
@@ -509,24 +505,34 @@ float Selector::surface_of(std::size_t person, float depth) const {
 
 Subject Selector::subject_of(std::size_t person, float depth, const Seen& seen) const {
     const float demand = demand_at_unit_splat(person, depth);
-    return {crowd_.character[person],
-            crowd_.role[person],
-            depth,
-            view_.pixels_per_metre(depth),
-            demand / options_.density,
-            demand,
-            seen.place};
+    Subject subject{crowd_.character[person],
+                    crowd_.role[person],
+                    depth,
+                    view_.pixels_per_metre(depth),
+                    demand / options_.density,
+                    demand,
+                    seen.place};
+    if (!limit_.is_set()) return subject;
+    const float scale = scale_of(person);
+    subject.allowed = limit_.off(scale * kinds_[subject.character].radius, depth) / scale;
+    return subject;
 }
 
 Subject Selector::subject_of(const Group& group, const Seen& seen) const {
     const float depth = depth_of(seen, group), demand = mean_demand_of(seen, group);
-    return {group.character,           group.role, depth,     view_.pixels_per_metre(depth),
-            demand / options_.density, demand,     seen.place};
+    Subject subject{group.character,           group.role, depth,      view_.pixels_per_metre(depth),
+                    demand / options_.density, demand,     seen.place, true};
+    if (limit_.is_set()) subject.allowed = limit_.off(0, nearest_of(seen)) / largest_of(seen, group);
+    return subject;
 }
 
-Selector::Moves Selector::moves_of(std::size_t person, const Subject& subject, const DrawingRule& rule) const {
-    const int period = rule.period_of(subject);
-    return {period, motion::due_tick(tick_, period, crowd_.hash[person])};
+float Selector::nearest_of(const Seen& seen) const {
+    const scene::CrowdBlock& block = crowd_.blocks[seen.block];
+    return std::max(depth_range(view_.from(block.origin), block.box).nearest, near_plane);
+}
+
+float Selector::largest_of(const Seen& seen, const Group& group) const {
+    return blocks_[seen.block].tallest / figures_[group.character].poses->rest_height;
 }
 
 std::uint32_t Selector::pose_of(std::size_t person, std::int64_t tick) {
@@ -542,7 +548,8 @@ Person Selector::choose(std::size_t person, float depth, const DrawingRule& rule
     const scene::CastMember& member = cast_[character];
     const motion::PoseTable& poses = *figures_[character].poses;
     const Subject subject = subject_of(person, depth, seen);
-    const auto [period, due] = moves_of(person, subject, rule);
+    const int period = rule.period_of(subject);
+    const std::int64_t due = motion::due_tick(tick_, period, crowd_.hash[person]);
     const auto [choice, samples] = rule.shape_of(subject);
     const auto& [representation, level] = kinds_[character].choices.all()[choice];
     const figures::Part part = figures::part_of(level, samples);

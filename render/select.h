@@ -16,6 +16,7 @@
 #include "motion/schedule.h"
 #include "render/crowding.h"
 #include "render/error_bounds.h"
+#include "render/error_limit.h"
 #include "render/forecaster.h"
 #include "render/frame.h"
 #include "render/rate_forecaster.h"
@@ -145,14 +146,10 @@ private:
     float mean_demand_of(const Seen& seen, const Group& group) const;  // at S = 1 px
     void find_shares();
     float on_screen(const Seen& seen, std::size_t person, float surface) const;
-    // How often somebody so far away moves [ticks], and when they did last.
-    struct Moves {
-        int period;
-        std::int64_t due;
-    };
-    Moves moves_of(std::size_t person, const Subject& subject, const DrawingRule& rule) const;
     Subject subject_of(std::size_t person, float depth, const Seen& seen) const;
     Subject subject_of(const Group& group, const Seen& seen) const;
+    float nearest_of(const Seen& seen) const;  // [m] view depth that nobody of a block is nearer than
+    float largest_of(const Seen& seen, const Group& group) const;  // [m / model unit] nobody of a block has more
     std::uint32_t pose_of(std::size_t person, std::int64_t tick);
     void find_far_blocks(const DrawingRule& rule);
     void make_room();
@@ -162,7 +159,6 @@ private:
     void add_errors(std::size_t number, const Person& person, const Subject& subject, int period, Seen& seen) const;
     void add_errors(const Group& group, const Subject& subject, int period, double people, Seen& seen) const;
     double cell() const;
-    double pixels_of(float off, float radius, float depth) const;
     float scale_of(std::size_t person) const;  // [m / model unit]
     float demand_at_unit_splat(std::size_t person, float depth) const;
     float surface_of(std::size_t person, float depth) const;  // [px^2]
@@ -189,6 +185,7 @@ private:
     View view_;
     std::int64_t tick_ = 0;
     Surroundings around_;
+    ErrorLimit limit_;
     scene::RememberedActs acts_;
     std::vector<Seen> seen_;  // in the crowd's order
     // [m] per person of those not whole; unseen: not in view; behind: hidden. Where nobody was ever asked, its memory
