@@ -115,32 +115,36 @@ figures::Way at_price(double of_a_point) {
     return way;
 }
 
-// The number of points that a person has at view depth `depth` under S.
-std::uint32_t points_at(const tests::LonePeople& lone, double depth, double splat_size,
-                        const figures::Way& way = figures::by_opengl()) {
-    Selector selector(lone.crowd, lone.cast, lone.figures(), {.way = &way});
+Selector selector_of(const tests::LonePeople& lone, const figures::Way& way = figures::by_opengl()) {
+    return {lone.crowd, lone.cast, lone.figures(), {.way = &way}};
+}
+
+// The number of points that the only person has at view depth `depth` under S.
+std::uint32_t points_at(Selector& selector, double depth, double splat_size) {
     selector.survey(view_from({0, 0.9, depth}, {0, 0, -1}), 0);
     const render::Frame& selection = selector.select({State::points, 10, splat_size}, -1);
-    return selection.people.size() == 1 ? tests::points_of(selection.people[0], way) : ~0u;
+    return selection.people.size() == 1 ? tests::points_of(selection.people[0]) : ~0u;
 }
 
 TEST(LonePerson, HasTwoPointsHoweverSmall) {
     const glm::vec3 feet(0, 0, 0);
     const tests::LonePeople lone(tests::make_lift(body_half, 0, 0.5, 8), {&feet, 1}, 4000);
+    Selector selector = selector_of(lone);
     for (const double depth : {900.0, 3000.0, 30000.0})
-        for (const double splat_size : {1.0, 8.0, 32.0}) EXPECT_EQ(points_at(lone, depth, splat_size), 2u);
+        for (const double splat_size : {1.0, 8.0, 32.0}) EXPECT_EQ(points_at(selector, depth, splat_size), 2u);
 }
 
 // 1.2 points for each splat-sized square of the whole surface, and no more than the next number on the ladder.
 TEST(LonePerson, HasAsManyPointsAsTheirSurfaceHasSquares) {
     const glm::vec3 feet(0, 0, 0);
     const tests::LonePeople lone(tests::make_lift(body_half, 0, 0.5, 40), {&feet, 1}, 8000);
+    Selector selector = selector_of(lone);
     const double area = 4 * 1.8 * 2 * body_half + 2 * std::pow(2 * body_half, 2);  // [m^2]
     for (double depth = 6; depth < 200; depth *= 1.13) {
         for (const double splat_size : {0.8, 1.0, 2.7, 9.0}) {
             const double pixels = height / (2 * std::tan(0.45) * depth);
             const double wanted = 1.2 * area * pixels * pixels / (splat_size * splat_size);
-            const std::uint32_t points = points_at(lone, depth, splat_size);
+            const std::uint32_t points = points_at(selector, depth, splat_size);
             if (wanted > 6100) continue;  // near the end of the model
             EXPECT_GE(points, std::max(2.0, 0.999 * wanted)) << depth << " m, S = " << splat_size;
             EXPECT_LE(points, std::max(2.0, 1.51 * wanted)) << depth << " m, S = " << splat_size;
@@ -154,10 +158,12 @@ TEST(LonePerson, HasNoMorePointsThanTheirTrianglesAreWorth) {
     const auto triangles = static_cast<std::uint32_t>(lone.character.mesh.triangle_count());
     ASSERT_EQ(triangles, 192u);
     for (const float price : {1.0f, 2.0f, 5.0f}) {
+        const figures::Way way = at_price(static_cast<double>(price));
+        Selector selector = selector_of(lone, way);
         std::uint32_t most = 0;
         bool changed = false;
         for (double depth = 1000; depth > 1; depth *= 0.93) {
-            const std::uint32_t points = points_at(lone, depth, 2, at_price(static_cast<double>(price)));
+            const std::uint32_t points = points_at(selector, depth, 2);
             ASSERT_NE(points, ~0u);
             EXPECT_LE(price * static_cast<float>(points), static_cast<float>(triangles)) << depth << " m";
             EXPECT_TRUE(points == 0 || !changed) << "nearer than triangles there are no points again";
@@ -174,8 +180,9 @@ TEST(LonePerson, HasNoMorePointsThanTheirModel) {
     const glm::vec3 feet(0, 0, 0);
     for (const std::size_t model : {48u, 50u, 63u, 64u}) {  // and all of them, where the ladder has that number
         const tests::LonePeople lone(tests::make_lift(body_half, 0, 0.5, 20), {&feet, 1}, model);
+        Selector selector = selector_of(lone);
         std::uint32_t most = 0;
-        for (double depth = 1000; depth > 1; depth *= 0.93) most = std::max(most, points_at(lone, depth, 2));
+        for (double depth = 1000; depth > 1; depth *= 0.93) most = std::max(most, points_at(selector, depth, 2));
         EXPECT_EQ(most, model == 64 ? 64u : 48u) << model;
     }
 }
@@ -281,6 +288,7 @@ TEST(Forecast, LossOfSplatsIsHalfASplatOrHalfThePerson) {
     for (int i = 0; i < 150; ++i)
         places.emplace_back(0.02f * static_cast<float>(i), 0, -4.0f - 3.0f * static_cast<float>(i));
     const tests::LonePeople row(tests::make_lift(body_half, 0, 0.5, 20), places, 1000);
+    Selector selector = selector_of(lone);
     const double area = 4 * 1.8 * 2 * body_half + 2 * std::pow(2 * body_half, 2);  // [m^2]
     const render::View view = view_from({0, 0.9, 0}, {0, 0, -1});
     Selector selector(row.crowd, row.cast, row.figures());
