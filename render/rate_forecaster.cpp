@@ -205,6 +205,8 @@ double RateForecaster::covered() const {
 
 std::span<const sfsm::RateStep> RateForecaster::finish() {
     const auto moves = movers_.finish(limit_);
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+        if (rows_[i].first <= rows_[i].last) sum_up(rows_[i], i / (2 * Exchange::shares));
     double most_loss = 0;
     std::size_t cell = 0;
     for (std::size_t step = 0; step < Exchange::steps; ++step) {
@@ -236,7 +238,8 @@ void RateForecaster::describe(const Sum& sum, const PaceForecaster::Price& moves
     out.loss = rounded((sum.error + moves.error) / pixels_, 1e6);
 }
 
-// In the cells that cost least, but none finer than at lower rates. Cells take time by how many there are.
+// In the cells that cost least, but none finer than at lower rates. Cells take time by how many there are, and change
+// at octaves of the rate only.
 RateForecaster::Sum RateForecaster::price_shapes(std::size_t step, std::size_t& cell) const {
     const double rate = Exchange::rate_of(static_cast<int>(step));
     const auto cost_of = [&](const Sum& sum, std::size_t at) {
@@ -245,6 +248,8 @@ RateForecaster::Sum RateForecaster::price_shapes(std::size_t step, std::size_t& 
         return sum.error + rate * (sum.pieces(way_->effort) + resampled);
     };
     Sum best = price_all(step, cell);
+    constexpr std::size_t octave = 3;
+    if (step % octave != 0) return best;
     double least = cost_of(best, cell);
     for (std::size_t at = cell + 1; at < exchange_.cells().size(); ++at) {
         const Sum sum = price_all(step, at);
@@ -272,8 +277,71 @@ RateForecaster::Sum RateForecaster::price_all(std::size_t step, std::size_t cell
     return sum;
 }
 
+const RateForecaster::Below& RateForecaster::Row::at(float place, Below& between) const {
+    if (!(place > static_cast<float>(first))) return below[static_cast<std::size_t>(first)];
+    if (!(place < static_cast<float>(last + 1))) return below[static_cast<std::size_t>(last) + 1];
+    const auto low = static_cast<std::size_t>(place);
+    const float share = place - static_cast<float>(low);
+    const Below &a = below[low], &b = below[low + 1];
+    for (std::size_t i = 0; i < Below::count; ++i) between.sums[i] = a.sums[i] + share * (b.sums[i] - a.sums[i]);
+    return between;
+}
+
+void RateForecaster::sum_up(Row& row, std::size_t kind) const {
+    const Prices& prices = prices_[kind];
+    const Ends& ends = ends_[kind];
+    row.below[static_cast<std::size_t>(row.first)] = {};
+    for (auto bin = static_cast<std::size_t>(row.first); bin <= static_cast<std::size_t>(row.last); ++bin) {
+        std::array<float, Below::count>& sums = row.below[bin + 1].sums = row.below[bin].sums;
+        const auto add = [&](std::size_t sum, double amount) { sums[sum] += static_cast<float>(amount); };
+        add(Below::people, row.people[bin]);
+        add(Below::surface, row.surface[bin]);
+        add(Below::shown, row.shown[bin]);
+        add(Below::mesh_error, row.shown[bin] * prices.mesh_errors[bin]);
+        add(Below::splat_error, row.shown[bin] * prices.splat_errors[bin]);
+        for (std::size_t cell = 0; cell < exchange_.cells().size(); ++cell) {
+            add(Below::few_error + cell, row.shown[bin] * ends.few_errors[cell][bin]);
+            add(Below::most_error + cell, row.shown[bin] * ends.most_errors[cell][bin]);
+        }
+    }
+}
+
+// From the smallest on: splats, as few points as there may be, points by their spacing, all of a model's, meshes.
 void RateForecaster::price_row(const Row& row, std::size_t kind, bool is_block, const Setting& setting,
                                Sum& sum) const {
+    const Prices& prices = prices_[kind];
+    if (is_limited_ || !prices.by_ones) return price_bins(row, kind, is_block, setting, sum);
+    const Places places = places_of(setting, kind);
+    const double square = setting.spacing * setting.spacing;
+    const double fewest = std::min<double>(figures::fewest_points, prices.most);
+    const float splat_to = is_block ? places.splat_to : 0;
+    const float mesh_from = std::max(splat_to, places.mesh_from);
+    const float few_to = std::clamp(bin_at(static_cast<float>(fewest * square)), splat_to, mesh_from);
+    const float most_from = std::clamp(bin_at(static_cast<float>(prices.most * square)), few_to, mesh_from);
+    std::array<Below, 4> room;
+    const Below &splats = row.at(splat_to, room[0]), &few = row.at(few_to, room[1]), &most = row.at(most_from, room[2]),
+                &mesh = row.at(mesh_from, room[3]), &all = row.below[static_cast<std::size_t>(row.last) + 1];
+    const auto between = [](const Below& a, const Below& b, std::size_t which) {
+        return static_cast<double>(b[which] - a[which]);
+    };
+    const double meshed = between(mesh, all, Below::people), pointed = between(splats, mesh, Below::people);
+    sum.triangles += meshed * prices.triangles;
+    sum.singles += meshed * prices.mesh_singles + pointed;
+    sum.splats += static_cast<double>(splats[Below::people]);
+    // Each has a last point in part.
+    sum.points += fewest * between(splats, few, Below::people) + between(few, most, Below::surface) / square +
+                  0.5 * between(few, most, Below::people) + prices.most * between(most, mesh, Below::people);
+    sum.sampled += static_cast<double>(mesh[Below::surface]);
+    sum.error +=
+        static_cast<double>(splats[Below::splat_error]) * way_->error.times_in_cells(exchange_.cells()[setting.cell]) +
+        between(splats, few, Below::few_error + setting.cell) + setting.error * between(few, most, Below::shown) +
+        between(most, mesh, Below::most_error + setting.cell) + between(mesh, all, Below::mesh_error);
+    sum.simplified |= pointed > 0 || splats[Below::people] > 0;
+}
+
+// Bin by bin: where points come in levels, or each size needs some number of them.
+void RateForecaster::price_bins(const Row& row, std::size_t kind, bool is_block, const Setting& setting,
+                                Sum& sum) const {
     const Prices& prices = prices_[kind];
     const Ends& ends = ends_[kind];
     const Levels* levels = prices.by_ones ? nullptr : &levels_[prices.first_levels + setting.step];
@@ -299,7 +367,7 @@ void RateForecaster::price_row(const Row& row, std::size_t kind, bool is_block, 
             asked = most;
             points_error = most_errors[bin];
         } else if (!levels) {
-            asked += 0.5 * people;  // each has a last point in part
+            asked += 0.5 * people;
         }
         meshed += as_mesh * people;
         pointed += as_points * people;

@@ -76,10 +76,32 @@ private:
     struct Amount {
         double people, surface, shown;
     };
+    static constexpr std::size_t most_cells = 4;
+    // What of a row is below a place among bins: of all its people, and what they lose as whatever they are drawn as;
+    // as few points, and as all of a model, by cell.
+    struct alignas(64) Below {
+        enum : std::size_t {
+            people,
+            surface,
+            shown,
+            mesh_error,
+            splat_error,
+            few_error,
+            most_error = few_error + most_cells,
+            count = 16
+        };
+        std::array<float, count> sums;
+
+        float operator[](std::size_t sum) const { return sums[sum]; }
+    };
     // Of a kind and a share, those alone and those of blocks.
     struct Row {
         int first = size_bins, last = -1;
-        Bins people{}, surface{}, shown{};  // together: [px^2], and silhouettes' pixels that show
+        Bins people{}, surface{}, shown{};       // together: [px^2], and silhouettes' pixels that show
+        std::array<Below, size_bins + 1> below;  // by edge of bins, from that of the first
+
+        // At a place between edges: of `between`, which is filled then.
+        const Below& at(float place, Below& between) const;
     };
     // What never changes of a kind. Errors are those of people of a bin's size.
     struct Prices {
@@ -135,7 +157,9 @@ private:
     }
     Sum price_shapes(std::size_t step, std::size_t& cell) const;
     Sum price_all(std::size_t step, std::size_t cell) const;
+    void sum_up(Row& row, std::size_t kind) const;
     void price_row(const Row& row, std::size_t kind, bool is_block, const Setting& setting, Sum& sum) const;
+    void price_bins(const Row& row, std::size_t kind, bool is_block, const Setting& setting, Sum& sum) const;
     void describe(const Sum& sum, const PaceForecaster::Price& moves, sfsm::RateStep& out) const;
 
     std::vector<Kind> kinds_;

@@ -288,7 +288,6 @@ TEST(Forecast, LossOfSplatsIsHalfASplatOrHalfThePerson) {
     for (int i = 0; i < 150; ++i)
         places.emplace_back(0.02f * static_cast<float>(i), 0, -4.0f - 3.0f * static_cast<float>(i));
     const tests::LonePeople row(tests::make_lift(body_half, 0, 0.5, 20), places, 1000);
-    Selector selector = selector_of(lone);
     const double area = 4 * 1.8 * 2 * body_half + 2 * std::pow(2 * body_half, 2);  // [m^2]
     const render::View view = view_from({0, 0.9, 0}, {0, 0, -1});
     Selector selector(row.crowd, row.cast, row.figures());
