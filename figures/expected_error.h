@@ -1,5 +1,5 @@
 // How different people look to an eye from how they should: the mean FLIP (Andersson et al. 2020) of the pixels that
-// show them, expected before anything is drawn. Constants are fitted to measured pictures (docs/controller.md).
+// show them, expected before anything is drawn. Constants are fitted to measured pictures (docs/measurements/loss.md).
 //
 // What points lose hardly depends on how large somebody is on the screen, only on how far apart their points lie and on
 // the cells these are added up in; what triangles and splats lose depends on size alone.

@@ -57,11 +57,13 @@ BackdropErrors fit_backdrop(const std::vector<Picture>& pictures) {
     return errors_of(least_squares({start.all, start.ground, start.unrest}, residuals));
 }
 
-ExpectedError fit_people(const Measured& measured, const BackdropErrors& around, const ExpectedError& start) {
+ExpectedError fit_people(const Measured& measured, const BackdropErrors& around, const ExpectedError& start,
+                         Motion motion) {
     std::vector<double ExpectedError::*> free;
     std::vector<double> at;
     for (const auto constant : constants)
-        if (start.*constant > 0) free.push_back(constant), at.push_back(start.*constant);
+        if (start.*constant > 0 && (constant != &ExpectedError::motion_growth || motion == Motion::fitted))
+            free.push_back(constant), at.push_back(start.*constant);
     const auto error_of = [&](std::span<const double> values) {
         ExpectedError error = start;
         for (std::size_t i = 0; i < free.size(); ++i) error.*free[i] = values[i];

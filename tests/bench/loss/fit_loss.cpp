@@ -84,24 +84,30 @@ std::vector<Picture> pictures_of(const Options& options) {
     return from_csv(csv, options.out);
 }
 
-void report(const std::vector<Picture>& pictures, const figures::Way& way, const render::native::BackdropErrors& around,
-            bool as_is) {
-    const Measured measured(pictures, way.drawing);
-    if (measured.all().empty()) return;
-    const figures::ExpectedError error = as_is ? way.error : fit_people(measured, around, way.error);
-    std::printf("\n%s, in figures/way.cpp:\n%s\n%s\n%s",
-                way.drawing == sfsm::Drawing::native ? "natively" : "by OpenGL", text_of(error).c_str(),
-                table_of(residuals_of(measured, error, around)).c_str(), summary_of(measured, error, around).c_str());
+void report(const Measured& measured, sfsm::Drawing drawing, const figures::ExpectedError& error,
+            const render::native::BackdropErrors& around) {
+    std::printf("\n%s, in figures/way.cpp:\n%s\n%s\n%s", drawing == sfsm::Drawing::native ? "natively" : "by OpenGL",
+                text_of(error).c_str(), table_of(residuals_of(measured, error, around)).c_str(),
+                summary_of(measured, error, around).c_str());
 }
 
+// What motion loses doesn't depend on what draws, and is measured natively.
 void go(const Options& options) {
     apps::finish_on_signal();
     const std::vector<Picture> pictures = pictures_of(options);
-    const render::native::BackdropErrors around =
-        options.as_is ? render::native::BackdropErrors{} : fit_backdrop(pictures);
+    const auto around = options.as_is ? render::native::BackdropErrors{} : fit_backdrop(pictures);
     std::printf("around people, in render/native/backdrop.h:\n%s", text_of(around).c_str());
-    report(pictures, figures::natively(), around, options.as_is);
-    report(pictures, figures::by_opengl(), around, options.as_is);
+    const Measured natively(pictures, sfsm::Drawing::native), by_opengl(pictures, sfsm::Drawing::opengl);
+    figures::ExpectedError error = figures::natively().error, opengl_error = figures::by_opengl().error;
+    if (!options.as_is) error = fit_people(natively, around, error, Motion::fitted);
+    report(natively, sfsm::Drawing::native, error, around);
+    if (by_opengl.all().empty()) return;
+    if (!options.as_is) {
+        opengl_error.motion_growth = error.motion_growth;
+        opengl_error.motion_most = error.motion_most;
+        opengl_error = fit_people(by_opengl, around, opengl_error, Motion::held);
+    }
+    report(by_opengl, sfsm::Drawing::opengl, opengl_error, around);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 namespace {
 
 using bench::loss::Measured;
+using bench::loss::Motion;
 using bench::loss::Picture;
 using bench::loss::Sum;
 using bench::loss::What;
@@ -88,7 +89,7 @@ TEST(FitLoss, FindsTheConstantsThatPicturesWereMadeWith) {
     EXPECT_NEAR(found.ground, around.ground, tolerance * static_cast<double>(around.ground));
     EXPECT_NEAR(found.unrest, around.unrest, tolerance * static_cast<double>(around.unrest));
     const Measured measured(pictures, sfsm::Drawing::native);
-    const ExpectedError fitted = bench::loss::fit_people(measured, found, figures::natively().error);
+    const ExpectedError fitted = bench::loss::fit_people(measured, found, figures::natively().error, Motion::held);
     for (const double cell : {1.0, 2.0, 3.0})
         for (const double spacing : {0.4, 1.0, 3.0}) {
             const double wanted = truth.of_points(spacing, cell);
@@ -104,7 +105,8 @@ TEST(FitLoss, LeavesConstantsThatAreNothing) {
     start.hole = start.blur = 0;
     const BackdropErrors around;
     const std::vector<Picture> pictures = made_up(start, around);
-    const ExpectedError fitted = bench::loss::fit_people(Measured(pictures, sfsm::Drawing::native), around, start);
+    const ExpectedError fitted =
+        bench::loss::fit_people(Measured(pictures, sfsm::Drawing::native), around, start, Motion::held);
     EXPECT_EQ(fitted.hole, 0);
     EXPECT_EQ(fitted.blur, 0);
 }
