@@ -125,6 +125,47 @@ TEST(Choices, OfBlocksAreSplatsWhereOneServes) {
     }
 }
 
+// By rate it is asked for samples: none of them is a mesh, and a mesh only where there is nothing else.
+TEST(Choices, OfSamplesAreTheCheapestPointsThatHaveAsMany) {
+    for (const figures::Way* way : ways) {
+        for (const auto& [triangles, points] : {std::pair{1300, 650}, {12, 64}, {50'000, 4096}, {1300, 0}}) {
+            const Character character(static_cast<std::size_t>(triangles), points);
+            const Choices choices(character.figure(), *way);
+            const double as_mesh = cost_of(choices.all()[choices.exact()].level.work, *way);
+            float most = 0;
+            for (const figures::Representation& representation : way->representations)
+                for (const Level& level : representation.levels(character.figure()))
+                    if (!representation.is_mesh && !representation.is_by_block && cost_of(level.work, *way) <= as_mesh)
+                        most = std::max(most, level.reach);
+            EXPECT_EQ(choices.most_samples(), most) << triangles << " triangles, " << points << " points";
+            for (float samples = 0.1f; samples < 1e5f; samples *= 1.07f) {
+                const figures::Choice& chosen = choices.all()[choices.samples_at(samples)];
+                EXPECT_EQ(way->representations[chosen.representation].is_mesh, most == 0);
+                if (most == 0) continue;
+                EXPECT_GE(chosen.level.reach, std::min(samples, most));
+                for (const figures::Representation& representation : way->representations)
+                    for (const Level& level : representation.levels(character.figure()))
+                        if (!representation.is_mesh && !representation.is_by_block &&
+                            level.reach >= std::min(samples, most)) {
+                            EXPECT_LE(cost_of(chosen.level.work, *way), cost_of(level.work, *way)) << samples;
+                        }
+            }
+        }
+    }
+}
+
+TEST(Choices, OfABlockIsASplatIfItCanBe) {
+    for (const figures::Way* way : ways)
+        for (const int points : {0, 64}) {
+            const Choices choices(Character(1300, points).figure(), *way);
+            const figures::Choice& chosen = choices.all()[choices.of_block()];
+            EXPECT_EQ(way->representations[chosen.representation].is_by_block, points > 0);
+            if (points == 0) {
+                EXPECT_EQ(choices.of_block(), choices.exact());
+            }
+        }
+}
+
 TEST(Representations, LevelsRiseInReachAndInWork) {
     const Character character(5000, 2500);
     for (const figures::Way* way : ways) {
