@@ -10,7 +10,7 @@ namespace tests {
 
 inline render::native::BackdropPicture empty_picture(int width, int height) {
     const int across = render::native::blocks_across(width), down = render::native::blocks_across(height);
-    return {width, height, {width, height}, {width, height}, {across, down}};
+    return {width, height, {width, height}, {width, height}, {across, down}, {across, down}};
 }
 
 inline std::vector<render::native::Tile> tiles_of(int width, int height, int side) {

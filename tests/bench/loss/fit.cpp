@@ -22,17 +22,27 @@ constexpr std::array constants = {&ExpectedError::finest,     &ExpectedError::gr
 
 constexpr std::array around_constants = {&BackdropErrors::all, &BackdropErrors::ground, &BackdropErrors::unrest};
 
-// Classes in the shares of a frame's error that they have; of fewer it is chance who is in front.
-constexpr double class_weight = 1.0 / 3, fewest_pixels = 300;
+// Of fewer pixels it is chance who is in front.
+constexpr double fewest_pixels = 300;
 
-void add_residuals(const Measured::One& one, const ExpectedError& error, const BackdropErrors& around,
-                   std::vector<double>& out) {
-    out.push_back(std::log(expected(one, error, around) / one.flip));
+// By classes: what their pixels lose, in the shares of a frame's error that they have.
+void add_residuals(const Measured::One& one, const ExpectedError& error, std::vector<double>& out) {
     const double all = one.picture->of(What::frame).flip;
-    for (const Sum& sum : one.picture->sums) {
+    for (Sum sum : one.picture->sums) {
         if (sum.what > What::splats || sum.pixels < fewest_pixels || sum.shown < fewest_pixels) continue;
-        out.push_back(class_weight * std::sqrt(sum.flip / all) * std::log(expected(sum, error) / sum.flip));
+        sum.shown = sum.pixels;
+        out.push_back(std::sqrt(sum.flip / all) * std::log(expected(sum, error) / sum.flip));
     }
+}
+
+// All that people lose so many times as large: more pixels show somebody than their silhouettes have, as each that they
+// touch does.
+ExpectedError times(ExpectedError error, double factor) {
+    for (const auto constant : {&ExpectedError::finest, &ExpectedError::growth, &ExpectedError::hole,
+                                &ExpectedError::mesh, &ExpectedError::splat, &ExpectedError::splat_growth,
+                                &ExpectedError::splat_most, &ExpectedError::motion_growth, &ExpectedError::motion_most})
+        error.*constant *= factor;
+    return error;
 }
 
 }  // namespace
@@ -73,10 +83,18 @@ ExpectedError fit_people(const Measured& measured, const BackdropErrors& around,
     const auto residuals = [&](std::span<const double> values) {
         std::vector<double> out;
         for (const Measured::One& one : measured.all())
-            if (one.picture->is_fitted) add_residuals(one, error_of(values), around, out);
+            if (one.picture->is_fitted) add_residuals(one, error_of(values), out);
         return out;
     };
-    return error_of(least_squares(at, residuals));
+    const ExpectedError shape = error_of(least_squares(at, residuals));
+    const auto of_frames = [&](std::span<const double> factor) {
+        std::vector<double> out;
+        for (const Measured::One& one : measured.all())
+            if (one.picture->is_fitted)
+                out.push_back(std::log(expected(one, times(shape, factor[0]), around) / one.flip));
+        return out;
+    };
+    return times(shape, least_squares({1.0}, of_frames)[0]);
 }
 
 }  // namespace bench::loss
