@@ -27,14 +27,14 @@ double ExpectedError::of_motion(double off) const {
 
 PointsErrors::PointsErrors(const ExpectedError& error, double cell) {
     for (int octave = 0; octave < octaves; ++octave)
-        for (int eighth = 0; eighth < per_octave; ++eighth) {
-            const double spacing = std::ldexp(1 + (eighth + 0.5) / per_octave, octave + first_octave);
-            errors_[static_cast<std::size_t>(octave * per_octave + eighth)] = error.of_points(spacing, cell);
+        for (int sixteenth = 0; sixteenth < per_octave; ++sixteenth) {
+            const double spacing = std::ldexp(1 + (sixteenth + 0.5) / per_octave, octave + first_octave);
+            errors_[static_cast<std::size_t>(octave * per_octave + sixteenth)] = error.of_points(spacing, cell);
         }
 }
 
 double PointsErrors::at(float spacing) const {
-    constexpr int bits = 20, first = (127 + first_octave) * per_octave;  // three bits of the mantissa
+    constexpr int bits = 19, first = (127 + first_octave) * per_octave;  // four bits of the mantissa
     const int place = static_cast<int>(std::bit_cast<std::uint32_t>(spacing) >> bits) - first;
     return errors_[static_cast<std::size_t>(std::clamp(place, 0, octaves * per_octave - 1))];
 }

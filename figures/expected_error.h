@@ -32,7 +32,7 @@ struct ExpectedError {
     double of_motion(double off) const;
 };
 
-// ExpectedError::of_points in cells of one size, by eighths of an octave of spacing: to be asked for everybody.
+// ExpectedError::of_points in cells of one size, by sixteenths of an octave of spacing: to be asked for everybody.
 class PointsErrors {
 public:
     PointsErrors() = default;
@@ -42,7 +42,7 @@ public:
     double at(float spacing) const;
 
 private:
-    static constexpr int octaves = 12, per_octave = 8, first_octave = -4;
+    static constexpr int octaves = 12, per_octave = 16, first_octave = -4;
     std::array<double, octaves * per_octave> errors_{};
 };
 

@@ -63,7 +63,7 @@ TEST(Promise, IsKeptAlongTheRoamingPath) {
 }
 
 TEST(Promise, OfAnErrorIsWhatIsMeasuredAlongTheRoamingPath) {
-    constexpr double tolerance = 0.28;
+    constexpr double tolerance = 0.3;  // the worst is 28.4 % off (docs/measurements/loss.md)
     const std::filesystem::path cache = apps::default_cache();
     ASSERT_FALSE(cache.empty()) << "references are kept in the user's cache";
     bench::front::References references(cache / "references");

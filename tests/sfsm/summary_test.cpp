@@ -78,6 +78,21 @@ TEST(Summary, PercentilesAreNearestRankWhateverTheOrder) {
     EXPECT_EQ(summarize({rows.data(), 1}).p50_ms, rows[0].frame_ms);
 }
 
+TEST(Summary, SaysTheLargestErrorAndTheMeanFlipOfFramesThatPromised) {
+    std::vector<TraceRow> rows = {row(100, 100), row(120, 100), row(90, 100)};
+    rows[0].max_motion_error_px = 2, rows[0].max_splat_error_px = 0.5, rows[0].predicted_flip = 0.02;
+    rows[2].max_motion_error_px = 1, rows[2].max_splat_error_px = 3, rows[2].predicted_flip = 0.04;
+    rows[1].predicted_ms = 106;
+    rows[2].predicted_ms = 104;
+    const Summary summary = summarize(rows);
+    EXPECT_EQ(summary.max_motion_error_px, 2);
+    EXPECT_EQ(summary.max_splat_error_px, 3);
+    EXPECT_DOUBLE_EQ(summary.predicted_flip, 0.03);
+    EXPECT_EQ(summary.worst_predicted_flip, 0.04);
+    EXPECT_EQ(summary.out_of_reach_frames, 1);
+    EXPECT_TRUE(std::isnan(summarize({&rows[1], 1}).predicted_flip));
+}
+
 TEST(SummaryJson, HasEveryFieldOfTheContract) {
     const std::vector<TraceRow> rows = {row(100, 100), row(120, 100, State::points)};
     const std::string json = summary_json(
@@ -98,7 +113,12 @@ TEST(SummaryJson, HasEveryFieldOfTheContract) {
               "  \"within_5pct\": 0.5,\n"
               "  \"within_10pct\": 0.5,\n"
               "  \"over_5pct\": 0.5,\n"
-              "  \"state_frames\": [1, 0, 1]\n"
+              "  \"max_motion_error_px\": null,\n"
+              "  \"max_splat_error_px\": null,\n"
+              "  \"predicted_flip\": null,\n"
+              "  \"worst_predicted_flip\": null,\n"
+              "  \"state_frames\": [1, 0, 1],\n"
+              "  \"out_of_reach_frames\": 0\n"
               "}\n");
 }
 

@@ -62,6 +62,7 @@ TEST(TraceColumns, ReadWhatTheyWrite) {
     row.range = 9.5;
     row.hidden = 11;
     row.drawn_state = State::slowed;
+    row.max_motion_error_px = 12.5, row.max_splat_error_px = 13.5, row.predicted_flip = 0.0625;
     for (std::size_t i = 0; i < work_kinds; ++i) row.work.counts[i] = 10 + static_cast<std::int64_t>(i);
     row.motion = {{20, only_on<WorkAxis::motion>(row.work), 0.5}};
     row.shapes = {{0, only_on<WorkAxis::shape>(row.work), 0}, {4, only_on<WorkAxis::shape>(row.work), 2}};

@@ -48,7 +48,7 @@ TEST_F(FrontProgram, RefusesOptionsThatSayNothingTogether) {
 TEST_F(FrontProgram, RefusesToMeasureNothing) {
     make_file("front.csv", "precious");
     refuses("--people 300 --only laws --out " + (folder_ / ""), "found nothing that");
-    refuses("--views roam-4s --only laws --out " + (folder_ / ""), "found nothing that");
+    refuses("--people 1000 --views roam-4s --only laws --out " + (folder_ / ""), "found nothing that");
     EXPECT_EQ(tests::read_file(folder_ / "front.csv"), "precious");
 }
 

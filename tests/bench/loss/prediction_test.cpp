@@ -41,7 +41,7 @@ INSTANTIATE_TEST_SUITE_P(Views, Prediction, testing::Values("close", "roam-11s")
                          [](const auto& view) { return std::string(view.param).substr(0, 4); });
 
 TEST_P(Prediction, IsNearWhatIsMeasuredAtRates) {
-    constexpr double tolerance = 0.3;  // docs/measurements/loss.md: of these views it is among the farthest off
+    constexpr double tolerance = 0.36;  // docs/measurements/loss.md: of these views it is among the farthest off
     const bench::front::Sight sight(venue(), shot(), references_);
     const bench::FlipReference reference(sight.judge().reference().now);
     auto& shooter = venue().shooter(sfsm::Drawing::native);
@@ -56,7 +56,7 @@ TEST_P(Prediction, IsNearWhatIsMeasuredAtRates) {
 
 // The measured classes are the whole picture, and what is expected of them is what the selector expects.
 TEST_P(Prediction, OfClassesIsThatOfTheFrame) {
-    constexpr double tolerance = 0.02;  // classes are octaves of height and quarters of one of spacing
+    constexpr double tolerance = 0.025;  // classes are octaves of height and quarters of one of spacing
     const bench::front::Sight sight(venue(), shot(), references_);
     const bench::loss::Subject subject(sight, sfsm::Drawing::native);
     std::vector<Picture> pictures = subject.by_recipes();
