@@ -8,7 +8,7 @@ namespace render {
 
 namespace {
 
-constexpr double first_rate = 0x1p-10, steps_per_octave = 3, shares_per_octave = 2;
+constexpr double first_rate = 0x1p-14, steps_per_octave = Exchange::steps_an_octave, shares_per_octave = 2;
 constexpr int usual_share = 3;  // of a stand: a third of each of its people shows
 
 // The least of a function over octaves from `first` to `last`: the best of a grid, then by golden section beside it.
@@ -90,7 +90,7 @@ float between(float a, float b, float share) {
 
 double Exchange::rate_of(int step) {
     static const auto rates = [] {
-        constexpr double digits = 1e6;  // traces keep them all
+        constexpr double digits = 1e7;  // traces keep them all
         std::array<double, steps> all{};
         for (int i = 0; i < steps; ++i)
             all[static_cast<std::size_t>(i)] =

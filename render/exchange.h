@@ -20,10 +20,10 @@ namespace render {
 
 class Exchange {
 public:
-    static constexpr int steps = 32;   // thirds of an octave of the rate
-    static constexpr int shares = 9;   // half octaves of v, from 1 down
-    static double rate_of(int step);   // [px / piece]
-    static float share_of(int place);  // v
+    static constexpr int steps = 30, steps_an_octave = 2;  // of the rate
+    static constexpr int shares = 9;                       // half octaves of v, from 1 down
+    static double rate_of(int step);                       // [px / piece]
+    static float share_of(int place);                      // v
 
     // A place among the shares, [0, shares - 1]: whole numbers are share_of().
     static float place_of(float share);

@@ -248,8 +248,7 @@ RateForecaster::Sum RateForecaster::price_shapes(std::size_t step, std::size_t& 
         return sum.error + rate * (sum.pieces(way_->effort) + resampled);
     };
     Sum best = price_all(step, cell);
-    constexpr std::size_t octave = 3;
-    if (step % octave != 0) return best;
+    if (step % Exchange::steps_an_octave != 0) return best;
     double least = cost_of(best, cell);
     for (std::size_t at = cell + 1; at < exchange_.cells().size(); ++at) {
         const Sum sum = price_all(step, at);

@@ -94,8 +94,8 @@ struct Draws {
     double by_logarithm(double from, double to) { return from * std::pow(to / from, sfsm::unit(next())); }
 };
 
-TEST(Exchange, ChoosesWithinTwoPerCentOfTheBestOfEverything) {
-    constexpr double slack = 1.02;
+TEST(Exchange, ChoosesWithinFivePerCentOfTheBestOfEverything) {
+    constexpr double slack = 1.05;  // between steps, half an octave apart, and with points no nearer than 0.3 px
     constexpr int tries = 6000;
     for (const figures::Way* way : ways) {
         const Market market(*way);
@@ -136,7 +136,7 @@ TEST(Exchange, SpacesThePointsOfAFrameAsAThirdOfAPersonAsks) {
         constexpr std::size_t with_many_points = 8;
         const Person person{market, with_many_points, Exchange::rate_of(step), share, 2000, 1};
         const Exchange::Terms& terms = market.exchange.at_step(step, 0);
-        EXPECT_LE(person.as_points_apart(static_cast<double>(terms.spacing)), 1.001 * person.as_best_points()) << step;
+        EXPECT_LE(person.as_points_apart(static_cast<double>(terms.spacing)), 1.005 * person.as_best_points()) << step;
         for (const float spacing : terms.spacings) EXPECT_FLOAT_EQ(std::exp2(spacing), terms.spacing);
     }
 }

@@ -135,7 +135,7 @@ void write_page(const Options& options, const Front& front) {
     const std::filesystem::path page = std::filesystem::path(options.out) / "front.html";
     write(page, page_of(front, read_crops(front, crops_folder(options))));
     const Verdicts verdicts = verdicts_of(scenes_of(front));
-    if (!verdicts.cases.empty()) std::printf("%s", verdicts_text(verdicts).c_str());
+    if (!verdicts.cases.empty() || verdicts.flicker.pairs > 0) std::printf("%s", verdicts_text(verdicts).c_str());
     std::printf("%s: %zu rows\n", page.c_str(), front.rows.size());
 }
 
@@ -148,10 +148,9 @@ void require_writable(const std::filesystem::path& path) {
 std::vector<Step> steps_of(const Part& part) {
     std::vector<Step> steps = plan(part);
     if (!steps.empty()) return steps;
-    throw std::runtime_error(
-        std::string("found nothing that --people, --views and --only all ask for") +
-        (part.with_opengl ? "" : " and that needs no OpenGL driver") +
-        ", expected a part of the comparison: laws are marked with 20000 or 1000000 people at presets");
+    throw std::runtime_error(std::string("found nothing that --people, --views and --only all ask for") +
+                             (part.with_opengl ? "" : " and that needs no OpenGL driver") +
+                             ", expected a part of the comparison: laws are marked with 20000 or 1000000 people");
 }
 
 void measure_all(const Options& options) {

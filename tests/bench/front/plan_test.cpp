@@ -130,7 +130,7 @@ TEST(FrontSettings, RatesSpanTheExchange) {
     }
     EXPECT_EQ(least, render::Exchange::rate_of(0));
     EXPECT_GE(2 * most, render::Exchange::rate_of(render::Exchange::steps - 1));
-    EXPECT_EQ(everywhere, 6);
+    EXPECT_EQ(everywhere, 8);
 }
 
 TEST(FrontPlan, RefusesViewsAndFamiliesThatAreNotThere) {

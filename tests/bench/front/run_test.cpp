@@ -158,7 +158,7 @@ TEST_F(FrontRun, ErrorsShrinkAsSettingsGetFiner) {
 // Which draws less the more it asks of a piece of work; what it comes to is in the row.
 TEST_F(FrontRun, ARateDrawsNoMoreThanALowerOne) {
     const auto rows = run(plan({.people = {few_people}, .views = {"medium"}, .families = {"native rates"}}));
-    ASSERT_EQ(rows.size(), 11u);
+    ASSERT_EQ(rows.size(), 15u);
     const auto pieces = [](const Row& row) {
         double sum = 0;
         for (const sfsm::WorkKind kind : {sfsm::WorkKind::triangle, sfsm::WorkKind::point})

@@ -86,7 +86,7 @@ void add_motion(std::vector<Setting>& all) {
 
 // An octave apart; which every law that decides by rates has between them too.
 void add_rates(std::vector<Setting>& all) {
-    constexpr int octave = 3;  // steps
+    constexpr int octave = render::Exchange::steps_an_octave;
     for (int step = 0; step < render::Exchange::steps; step += octave) {
         const double rate = render::Exchange::rate_of(step);
         all.push_back({.family = "native rates",

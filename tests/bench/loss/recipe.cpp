@@ -33,7 +33,7 @@ void add_motion(std::vector<Recipe>& all) {
 }
 
 void add_rates(std::vector<Recipe>& all) {
-    for (int step = 0; step < render::Exchange::steps; step += 3) {
+    for (int step = 0; step < render::Exchange::steps; step += render::Exchange::steps_an_octave) {
         const double rate = render::Exchange::rate_of(step);
         all.push_back({.name = "rate " + number_text(rate), .rate = rate});
     }
