@@ -94,8 +94,8 @@ struct Draws {
     double by_logarithm(double from, double to) { return from * std::pow(to / from, sfsm::unit(next())); }
 };
 
-TEST(Exchange, ChoosesWithinFivePerCentOfTheBestOfEverything) {
-    constexpr double slack = 1.05;  // between steps, half an octave apart, and with points no nearer than 0.3 px
+TEST(Exchange, ChoosesWithinSevenPerCentOfTheBestOfEverything) {
+    constexpr double slack = 1.07;  // between steps, half an octave apart, and with points no nearer than 0.3 px
     constexpr int tries = 6000;
     for (const figures::Way* way : ways) {
         const Market market(*way);
