@@ -133,8 +133,9 @@ void Exchange::add_terms(std::span<const Kind> kinds, const figures::Way& way, d
                 return costs.as_splat(surface) <= std::min(costs.as_points(surface), costs.as_mesh(surface));
             });
             const bool has_splat = kind.choices->block_reach() >= 0;
+            const double tallest = std::log2(kind.area * tallest_splat * tallest_splat / (kind.height * kind.height));
             terms.meshes_from.push_back(static_cast<float>(mesh_from));
-            terms.splats_to.push_back(has_splat ? static_cast<float>(splat_to) : -126.0f);
+            terms.splats_to.push_back(has_splat ? static_cast<float>(std::min(splat_to, tallest)) : -126.0f);
         }
     }
 }

@@ -24,6 +24,8 @@ public:
     static constexpr int shares = 9;                       // half octaves of v, from 1 down
     static double rate_of(int step);                       // [px / piece]
     static float share_of(int place);                      // v
+    // [px] of height: rows of taller ones show as stripes, which the eye finds at once and FLIP hardly minds.
+    static constexpr double tallest_splat = 4.5;
 
     // A place among the shares, [0, shares - 1]: whole numbers are share_of().
     static float place_of(float share);

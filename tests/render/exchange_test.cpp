@@ -59,7 +59,9 @@ struct Person {
                         way().effort.single + way().effort.point * count);
     }
     // Of a block, which is drawn as one only where its people are small (render/select.cpp).
-    bool may_be_splat() const { return market.characters[kind].choices.block_reach() >= 0 && height() <= 9; }
+    bool may_be_splat() const {
+        return market.characters[kind].choices.block_reach() >= 0 && height() <= Exchange::tallest_splat;
+    }
     double as_splat() const {
         if (!may_be_splat()) return infinite;
         return together(way().error.of_splat(height()) * way().error.times_in_cells(cell), way().effort.splat);

@@ -106,7 +106,7 @@ TEST(RateForecast, CountsWhatSelectionDraws) {
         }
         EXPECT_GT(far_blocks, 100u);
         for (const WorkKind kind : {WorkKind::triangle, WorkKind::point, WorkKind::single}) {
-            constexpr double bias = 0.01;
+            constexpr double bias = 0.015;
             EXPECT_NEAR(count(all.foreseen, kind) / count(all.drawn, kind), 1, bias)
                 << sfsm::entry_of(kind).name << ' ' << sfsm::name_of(way->drawing);
         }
