@@ -23,8 +23,10 @@ double least_at(double first, double last, const Function& function) {
     double low = std::max(best - step, first), high = std::min(best + step, last);
     for (int i = 0; i < 16; ++i) {
         const double a = high - golden * (high - low), b = low + golden * (high - low);
-        (function(std::exp2(a)) <= function(std::exp2(b)) ? high : low) =
-            function(std::exp2(a)) <= function(std::exp2(b)) ? b : a;
+        if (function(std::exp2(a)) <= function(std::exp2(b)))
+            high = b;
+        else
+            low = a;
     }
     return 0.5 * (low + high);
 }
@@ -109,8 +111,8 @@ float Exchange::place_of(float share) {
     return place > 0 ? std::min(place, static_cast<float>(shares - 1)) : 0.0f;
 }
 
-Exchange::Exchange(std::span<const Kind> kinds, const figures::Way& way) : cells_{1} {
-    if (way.has_cells) cells_ = {1, 1.68, 2.4, 3.36};
+Exchange::Exchange(std::span<const Kind> kinds, const figures::Way& way)
+    : cells_(std::span(cell_sides).first(way.has_cells ? cell_sides.size() : 1)) {
     for (const double cell : cells_)
         for (int step = 0; step < steps; ++step) add_terms(kinds, way, rate_of(step), cell);
 }

@@ -39,7 +39,8 @@ public:
     // `way` is only asked here.
     Exchange(std::span<const Kind> kinds, const figures::Way& way);
 
-    // [px] Sides of cells that points may be added up in; the first is 1, and the only one of a way without cells.
+    // [px] Sides of cells that points may be added up in; the first alone of a way without cells.
+    static constexpr std::array cell_sides = {1.0, 1.68, 2.4, 3.36};
     std::span<const double> cells() const { return cells_; }
 
     // What holds at a rate, in cells of a size.
@@ -68,8 +69,8 @@ public:
 private:
     void add_terms(std::span<const Kind> kinds, const figures::Way& way, double rate, double cell);
 
-    std::vector<double> cells_;
-    std::vector<Terms> terms_;  // by cell, then step
+    std::span<const double> cells_;  // of cell_sides
+    std::vector<Terms> terms_;       // by cell, then step
 };
 
 }  // namespace render

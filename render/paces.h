@@ -41,7 +41,7 @@ private:
     std::vector<Roles> periods_;
 };
 
-// Of those that cost anything, the longest first: update periods that are chosen from [ticks].
+// Update periods that are chosen from [ticks].
 inline constexpr std::array paced_periods = {1, 2, 3, 4, 6, 8, 12, 16, 24, motion::max_period};
 
 class PaceForecaster {

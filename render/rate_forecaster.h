@@ -76,7 +76,7 @@ private:
     struct Amount {
         double people, surface, shown;
     };
-    static constexpr std::size_t most_cells = 4;
+    static constexpr std::size_t most_cells = Exchange::cell_sides.size();
     // What of a row is below a place among bins: of all its people, and what they lose as whatever they are drawn as;
     // as few points, and as all of a model, by cell.
     struct alignas(64) Below {
