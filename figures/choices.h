@@ -42,8 +42,6 @@ public:
     }
     // The most samples that one of them has; 0 without any.
     float most_samples() const { return samples_.empty() ? 0 : samples_.back().reach; }
-    // What a block is drawn as, if it can be; else exact().
-    std::uint32_t of_block() const { return block_.reach >= 0 ? block_.choice : exact(); }
     // What serves any demand: the artist's own shape.
     std::uint32_t exact() const { return by_cost_.back().choice; }
 

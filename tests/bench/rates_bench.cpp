@@ -2,12 +2,10 @@
 // one and the others in blocks that may be drawn as one.
 #include <benchmark/benchmark.h>
 
-#include <memory>
 #include <vector>
 
-#include "render/rate_forecaster.h"
 #include "sfsm/random.h"
-#include "tests/render/counted_character.h"
+#include "tests/render/troupe.h"
 
 namespace {
 
@@ -16,25 +14,10 @@ using render::RateForecaster;
 
 constexpr std::int64_t people = 1'000'000, block = 250, alone = 20'000;
 
-struct Crowd {
-    const figures::Way& way = figures::natively();
-    std::vector<std::unique_ptr<tests::CountedCharacter>> characters;
-    render::ErrorBounds bounds;
-    RateForecaster forecaster;
-    render::View view = render::make_view({{0, 0, 0}, {0, 0, -1}, 0.8}, 1280, 720);
+struct Crowd : tests::Troupe {
     std::vector<RateForecaster::Group> groups;
 
-    explicit Crowd(std::size_t count) {
-        std::vector<RateForecaster::Kind> kinds;
-        for (std::size_t i = 0; i < count; ++i) {
-            characters.push_back(std::make_unique<tests::CountedCharacter>(1300 + 397 * i, 4096, way));
-            RateForecaster::Kind kind{{&characters.back()->choices, 1.9, 1.65}, {}, &bounds, 1};
-            for (render::Staleness& staleness : kind.staleness)
-                for (std::size_t period = 2; period < staleness.size(); ++period)
-                    staleness[period] = 0.01f * static_cast<float>(period - 1);
-            kinds.push_back(kind);
-        }
-        forecaster = RateForecaster(std::move(kinds), way);
+    explicit Crowd(std::size_t count) : Troupe(count, 1300, 4096) {
         for (std::int64_t i = 0; i < alone; ++i) groups.push_back(group(static_cast<std::uint64_t>(i), 1, 5, 120));
         for (std::int64_t i = 0; i < (people - alone) / block; ++i)
             for (std::size_t kind = 0; kind < count; ++kind)

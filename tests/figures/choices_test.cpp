@@ -10,25 +10,13 @@
 #include <set>
 
 #include "figures/splats.h"
+#include "tests/figures/counted_character.h"
 
 namespace {
 
 using figures::Choices;
 using figures::Level;
-
-// A character of so many triangles and points; nobody looks at where they are.
-struct Character {
-    model::Mesh mesh;
-    motion::PoseTable poses;
-
-    Character(std::size_t triangles, int points) {
-        mesh.indices.resize(3 * triangles);
-        poses.point_count = points;
-        poses.pose_count = 1;
-        poses.clips = {{}};
-    }
-    figures::Figure figure() const { return {&mesh, &poses, nullptr}; }
-};
+using Character = tests::CountedFigure;
 
 double cost_of(const sfsm::Work& work, const figures::Way& way) {
     double cost = 0;
@@ -158,10 +146,10 @@ TEST(Choices, OfABlockIsASplatIfItCanBe) {
     for (const figures::Way* way : ways)
         for (const int points : {0, 64}) {
             const Choices choices(Character(1300, points).figure(), *way);
-            const figures::Choice& chosen = choices.all()[choices.of_block()];
-            EXPECT_EQ(way->representations[chosen.representation].is_by_block, points > 0);
+            const std::uint32_t chosen = choices.in_block_at(1.0f);
+            EXPECT_EQ(way->representations[choices.all()[chosen].representation].is_by_block, points > 0);
             if (points == 0) {
-                EXPECT_EQ(choices.of_block(), choices.exact());
+                EXPECT_EQ(chosen, choices.exact());
             }
         }
 }

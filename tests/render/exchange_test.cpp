@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "sfsm/random.h"
-#include "tests/render/counted_character.h"
+#include "tests/figures/counted_character.h"
 
 namespace {
 

@@ -6,15 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <string>
 
 #include "render/select.h"
 #include "sfsm/prices.h"
 #include "tests/render/counted_allocations.h"
-#include "tests/render/counted_character.h"
 #include "tests/render/drawn_points.h"
 #include "tests/render/small_scene.h"
+#include "tests/render/troupe.h"
 
 namespace {
 
@@ -247,25 +246,8 @@ TEST(RateForecast, HasTheSizeOfAsManyPoints) {
 }
 
 // So many characters, of each a forecaster's people are as many.
-struct Troupe {
-    const figures::Way& way = figures::natively();
-    std::vector<std::unique_ptr<tests::CountedCharacter>> characters;
-    render::ErrorBounds bounds;
-    RateForecaster forecaster;
-    render::View view = render::make_view({{0, 0, 0}, {0, 0, -1}, 0.8}, 1280, 720);
-
-    explicit Troupe(std::size_t count) {
-        std::vector<RateForecaster::Kind> kinds;
-        for (std::size_t i = 0; i < count; ++i) {
-            characters.push_back(std::make_unique<tests::CountedCharacter>(200 + 397 * i, 600, way));
-            RateForecaster::Kind kind{{&characters.back()->choices, 1.9, 1.65}, {}, &bounds, 1};
-            for (render::Staleness& staleness : kind.staleness)
-                for (std::size_t period = 2; period < staleness.size(); ++period)
-                    staleness[period] = 0.01f * static_cast<float>(period - 1);
-            kinds.push_back(kind);
-        }
-        forecaster = RateForecaster(std::move(kinds), way);
-    }
+struct Troupe : tests::Troupe {
+    explicit Troupe(std::size_t count) : tests::Troupe(count, 200, 600) {}
 
     RateForecaster::Group group(std::size_t kind, float depth) const {
         const float pixels = view.pixels_per_metre(depth);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "tests/sfsm/normal.h"
 #include "tests/sfsm/simulation.h"
 
 namespace sfsm {
@@ -14,10 +15,6 @@ constexpr PriceBelief belief{3, {1, 1, 1}, 0};
 
 Amounts amounts(double a, double b, double c) {
     return {{a, b, c}, 3};
-}
-
-double normal(std::mt19937_64& random) {
-    return std::sqrt(-2 * std::log(1 - uniform(random))) * std::cos(6.283185307179586 * uniform(random));
 }
 
 // A renderer with prices 2, 5 and 0.5, and a gain.

@@ -10,6 +10,7 @@
 
 #include "sfsm/detail.h"
 #include "sfsm/least_loss.h"
+#include "tests/sfsm/normal.h"
 #include "tests/sfsm/simulation.h"
 #include "tests/sfsm/steps.h"
 
@@ -18,11 +19,6 @@ namespace {
 
 constexpr int most_delay = 4;  // frames, of timer queries
 constexpr double target_ms = 1000.0 / 60;
-
-double normal(std::mt19937_64& random) {
-    const double radius = std::sqrt(-2 * std::log(1 - uniform(random)));
-    return radius * std::cos(6.283185307179586 * uniform(random));
-}
 
 // --- One knob, no forecast: time = load * curve(detail) * target.
 
@@ -295,23 +291,12 @@ struct ForecastLoop {
 
 std::vector<TraceRow> run(Controller& law, const ForecastLoop& loop) {
     std::mt19937_64 random(loop.seed);
-    std::vector<TraceRow> rows;
-    for (std::int64_t frame = 0; frame < loop.frames; ++frame) {
-        if (frame > loop.delay) {
-            const TraceRow& arrived = rows[static_cast<std::size_t>(frame - 1 - loop.delay)];
-            law.observe({arrived.frame, arrived.frame_ms, arrived.decision, arrived.work});
-        }
-        const Scene& scene = loop.scene(frame);
-        TraceRow row;
-        row.frame = frame;
-        row.target_ms = loop.target(frame);
-        row.range = test_range;
+    return run_frames(law, loop.frames, loop.delay, loop.target, test_range, [&](TraceRow& row) {
+        const Scene& scene = loop.scene(row.frame);
         row.decision = law.decide({row.target_ms, test_range, &scene.forecast});
         row.work = scene.work(row.decision);
         row.frame_ms = scene.ms(row.work) * std::exp(loop.noise * normal(random));
-        rows.push_back(row);
-    }
-    return rows;
+    });
 }
 
 Scene scene_of(double people, double points_each = 1500, double farness = 2) {

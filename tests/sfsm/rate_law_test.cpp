@@ -11,6 +11,7 @@
 #include "sfsm/pair_plans.h"
 #include "sfsm/predictive.h"
 #include "sfsm/rate_plans.h"
+#include "tests/sfsm/normal.h"
 #include "tests/sfsm/rate_scene.h"
 #include "tests/sfsm/simulation.h"
 #include "tests/sfsm/steps.h"
@@ -20,11 +21,6 @@ namespace {
 
 constexpr double target_ms = 1000.0 / 60;
 constexpr int most_delay = 4;
-
-double normal(std::mt19937_64& random) {
-    const double radius = std::sqrt(-2 * std::log(1 - uniform(random)));
-    return radius * std::cos(6.283185307179586 * uniform(random));
-}
 
 struct RateLoop {
     std::function<const RateScene&(std::int64_t frame)> scene;
@@ -46,25 +42,14 @@ Work work_of(const RateScene& scene, const Decision& decision) {
 
 std::vector<TraceRow> run(Controller& law, const RateLoop& loop) {
     std::mt19937_64 random(loop.seed);
-    std::vector<TraceRow> rows;
-    for (std::int64_t frame = 0; frame < loop.frames; ++frame) {
-        if (frame > loop.delay) {
-            const TraceRow& arrived = rows[static_cast<std::size_t>(frame - 1 - loop.delay)];
-            law.observe({arrived.frame, arrived.frame_ms, arrived.decision, arrived.work});
-        }
-        const RateScene& scene = loop.scene(frame);
+    return run_frames(law, loop.frames, loop.delay, loop.target, test_range, [&](TraceRow& row) {
+        const RateScene& scene = loop.scene(row.frame);
         Forecast forecast = scene.forecast;
         if (!loop.has_rates) forecast.rates = {};
-        TraceRow row;
-        row.frame = frame;
-        row.target_ms = loop.target(frame);
-        row.range = test_range;
         row.decision = law.decide({row.target_ms, test_range, &forecast});
         row.work = work_of(scene, row.decision);
         row.frame_ms = scene.ms(row.work) * std::exp(loop.noise * normal(random));
-        rows.push_back(row);
-    }
-    return rows;
+    });
 }
 
 RateLoop always(const RateScene& scene) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "tests/sfsm/normal.h"
 #include "tests/sfsm/simulation.h"
 
 namespace sfsm {
@@ -14,10 +15,6 @@ namespace {
 
 constexpr int window = 32;
 constexpr double clip = 3, threshold = 4.2;  // standard deviations
-
-double normal(std::mt19937_64& random) {
-    return std::sqrt(-2 * std::log(1 - uniform(random))) * std::cos(6.283185307179586 * uniform(random));
-}
 
 // The number of newest samples whose mean is the least likely to be 0, where it is less likely than the threshold.
 int most_telling(const std::vector<double>& samples) {

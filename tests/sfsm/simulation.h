@@ -47,23 +47,32 @@ struct Loop {
     double range = test_range;
 };
 
-// One row a frame: what the law decided and what it took.
-inline std::vector<TraceRow> run(Controller& law, const Loop& loop) {
+// One row a frame: what the law decided and what it took. Times arrive `delay` frames late. `draw` gets a row with its
+// frame, target and range, has the law decide, and says what that took.
+template <class Draw>
+std::vector<TraceRow> run_frames(Controller& law, std::int64_t frames, int delay, const Target& target, double range,
+                                 const Draw& draw) {
     std::vector<TraceRow> rows;
-    for (std::int64_t frame = 0; frame < loop.frames; ++frame) {
-        if (frame > loop.delay) {
-            const TraceRow& arrived = rows[static_cast<std::size_t>(frame - 1 - loop.delay)];
+    for (std::int64_t frame = 0; frame < frames; ++frame) {
+        if (frame > delay) {
+            const TraceRow& arrived = rows[static_cast<std::size_t>(frame - 1 - delay)];
             law.observe({arrived.frame, arrived.frame_ms, arrived.decision, arrived.work});
         }
         TraceRow row;
         row.frame = frame;
-        row.target_ms = loop.target(frame);
-        row.range = loop.range;
-        row.decision = law.decide({row.target_ms, row.range});
-        row.frame_ms = loop.time(frame, row.decision);
+        row.target_ms = target(frame);
+        row.range = range;
+        draw(row);
         rows.push_back(row);
     }
     return rows;
+}
+
+inline std::vector<TraceRow> run(Controller& law, const Loop& loop) {
+    return run_frames(law, loop.frames, loop.delay, loop.target, loop.range, [&](TraceRow& row) {
+        row.decision = law.decide({row.target_ms, row.range});
+        row.frame_ms = loop.time(row.frame, row.decision);
+    });
 }
 
 inline Time exact(const Plant& plant, double range = test_range) {

@@ -8,6 +8,7 @@
 #include <functional>
 #include <vector>
 
+#include "tests/sfsm/normal.h"
 #include "tests/sfsm/simulation.h"
 
 namespace sfsm {
@@ -17,10 +18,6 @@ constexpr double noise = 0.03;  // 1 sigma
 constexpr int seeds = 40;
 
 using Residual = std::function<double(std::mt19937_64&)>;
-
-double normal(std::mt19937_64& random) {
-    return std::sqrt(-2 * std::log(1 - uniform(random))) * std::cos(6.283185307179586 * uniform(random));
-}
 
 double gaussian(std::mt19937_64& random) {
     return noise * normal(random);

@@ -6,6 +6,8 @@
 
 #include "figures/splats.h"
 #include "pointsample/point_model.h"
+#include "tests/bench/front/posture.h"
+#include "tests/render/drawn_people.h"
 
 namespace bench::front {
 
@@ -21,28 +23,6 @@ struct Mean {
         ++count;
     }
     double mean() const { return count > 0 ? sum / static_cast<double>(count) : 0; }
-};
-
-// Where somebody's surface is drawn.
-struct Posture {
-    glm::vec3 position;  // [m] camera-relative
-    float scale;
-    render::Turn turn;
-    std::uint32_t pose;
-
-    static Posture of(const render::Person& person) {
-        return {person.instance.position, person.instance.scale, person.instance.turn, person.pose};
-    }
-    bool is(const Posture& other) const {
-        return position == other.position && scale == other.scale && turn.sin_yaw == other.turn.sin_yaw &&
-               turn.cos_yaw == other.turn.cos_yaw && pose == other.pose;
-    }
-    glm::vec3 at(const motion::PoseTable& poses, int vertex) const {
-        const std::size_t index = std::size_t{pose} * poses.vertex_count + vertex;
-        const glm::vec3 model = motion::unpack_position(poses.vertices[index], poses.box);
-        const float s = static_cast<float>(turn.sin_yaw) / 32767, c = static_cast<float>(turn.cos_yaw) / 32767;
-        return position + scale * glm::vec3(c * model.x + s * model.z, model.y, c * model.z - s * model.x);
-    }
 };
 
 // [px] Of the vertex that is farthest off on the screen.
@@ -72,13 +52,6 @@ double covering_radius(const pointsample::PointModel& model, std::uint32_t point
     return std::exp(log(below.radius) + share * (log(above->radius) - log(below.radius)));
 }
 
-// Whether each block of the crowd is drawn as one.
-std::vector<bool> far_blocks_of(const render::Frame& frame, std::size_t blocks) {
-    std::vector<bool> far(blocks);
-    for (const render::FarBlock& block : frame.far_blocks) far[block.block] = true;
-    return far;
-}
-
 // One who is drawn in a block.
 Posture as_splat(const render::FarPeople& far, std::uint32_t number, const Posture& exact,
                  const motion::PoseTable& poses) {
@@ -100,19 +73,11 @@ public:
           present_(present),
           stage_(stage),
           way_(way),
-          is_far_(far_blocks_of(frame, stage.place.crowd.blocks.size())),
           stride_((present.people.size() + most_moving_people - 1) / most_moving_people) {}
 
     void go() {
-        const std::vector<scene::CrowdBlock>& blocks = stage_.place.crowd.blocks;
-        std::size_t block = 0, next_drawn = 0;
-        for (std::size_t i = 0; i < present_.people.size(); ++i) {
-            const std::uint32_t number = present_.numbers[i];
-            while (number >= blocks[block].first + blocks[block].count) ++block;
-            const render::Person* alone = is_far_[block] ? nullptr : &frame_.people.at(next_drawn++);
-            meet(i, alone);
-        }
-        if (next_drawn != frame_.people.size()) throw std::logic_error("a frame draws somebody who isn't visible");
+        tests::for_each_drawn(frame_, present_.numbers, stage_.place.crowd,
+                              [&](std::size_t i, std::uint32_t, const render::Person* alone) { meet(i, alone); });
     }
 
     Mean motion, outline, covering;
@@ -139,28 +104,13 @@ private:
     const Present& present_;
     const apps::Stage& stage_;
     const figures::Way& way_;
-    std::vector<bool> is_far_;
     std::size_t stride_;
 };
 
 }  // namespace
 
-// Both are in the crowd's order, and nobody stands where another does.
 Present present_in(const render::Frame& exact, const apps::Stage& stage, std::int64_t tick) {
-    const scene::Crowd& crowd = stage.place.crowd;
-    Present present{exact.people, {}};
-    present.numbers.reserve(present.people.size());
-    std::uint32_t number = 0;
-    for (const render::Person& person : present.people) {
-        const auto stands_there = [&] {
-            const auto& member = stage.cast[crowd.character[number]];
-            return exact.view.relative(scene::place(crowd, number, member, tick).position) == person.instance.position;
-        };
-        while (number < crowd.size() && !stands_there()) ++number;
-        if (number == crowd.size()) throw std::logic_error("a frame draws somebody who isn't in the crowd");
-        present.numbers.push_back(number++);
-    }
-    return present;
+    return {exact.people, tests::numbers_of(exact, stage.place.crowd, stage.cast, tick)};
 }
 
 void fill_offsets(const render::Frame& drawn, const Present& present, const apps::Stage& stage, const figures::Way& way,

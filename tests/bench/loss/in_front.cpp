@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "tests/bench/front/posture.h"
+
 namespace bench::loss {
 
 namespace {
@@ -73,33 +75,25 @@ private:
     std::vector<std::int32_t> who_;
 };
 
-glm::vec3 posed(const render::Person& person, const motion::PoseTable& poses, std::size_t vertex) {
-    const std::size_t at = std::size_t{person.pose} * poses.vertex_count + vertex;
-    const glm::vec3 model = motion::unpack_position(poses.vertices[at], poses.box);
-    const float s = static_cast<float>(person.instance.turn.sin_yaw) / 32767;
-    const float c = static_cast<float>(person.instance.turn.cos_yaw) / 32767;
-    return person.instance.position +
-           person.instance.scale * glm::vec3(c * model.x + s * model.z, model.y, c * model.z - s * model.x);
-}
-
 // Of the smallest, few vertices are enough.
-std::size_t stride_of(float height) {
+int stride_of(float height) {
     return height < 1.5f ? 16 : height < 4 ? 4 : 1;
 }
 
 void put_vertices(const render::Person& person, const motion::PoseTable& poses, float height, std::int32_t who,
                   Canvas& canvas) {
-    const auto vertices = static_cast<std::size_t>(poses.vertex_count);
-    for (std::size_t vertex = 0; vertex < vertices; vertex += stride_of(height)) {
-        const glm::vec3 at = canvas.on_screen(posed(person, poses, vertex));
+    const front::Posture posture = front::Posture::of(person);
+    for (int vertex = 0; vertex < poses.vertex_count; vertex += stride_of(height)) {
+        const glm::vec3 at = canvas.on_screen(posture.at(poses, vertex));
         canvas.put(static_cast<int>(std::floor(at.x)), static_cast<int>(std::floor(at.y)), at.z, who);
     }
 }
 
 void put_triangles(const render::Person& person, const figures::Figure& figure, std::int32_t who, Canvas& canvas) {
     std::vector<glm::vec3> corners(static_cast<std::size_t>(figure.poses->vertex_count));
-    for (std::size_t vertex = 0; vertex < corners.size(); ++vertex)
-        corners[vertex] = canvas.on_screen(posed(person, *figure.poses, vertex));
+    const front::Posture posture = front::Posture::of(person);
+    for (int vertex = 0; vertex < figure.poses->vertex_count; ++vertex)
+        corners[static_cast<std::size_t>(vertex)] = canvas.on_screen(posture.at(*figure.poses, vertex));
     const auto& indices = figure.mesh->indices;
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
         canvas.put({corners[indices[i]], corners[indices[i + 1]], corners[indices[i + 2]]}, who);
