@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@
 #include "apps/places.h"
 #include "apps/program.h"
 #include "apps/progress.h"
+#include "apps/warnings.h"
 #include "model/io/mesh_file.h"
 #include "motion/pose.h"
 #include "pointsample/model_key.h"
@@ -42,7 +44,7 @@ struct Options {
     std::string output;
     bool ascii = false;
     std::optional<std::string> pose;  // none: the rest pose
-    bool all_clips = false, visible_only = false, even = false, uniform = false;
+    bool all_clips = false, visible_only = false, even = false, uniform = false, strict = false;
     std::uint64_t seed = 1;
     std::string stats;
 
@@ -89,6 +91,7 @@ void add_options(CLI::App& app, Options& options) {
     app.add_option("--seed", options.seed, "Another seed, other points")
         ->check(apps::whole_number(0, std::numeric_limits<std::uint64_t>::max()))
         ->capture_default_str();
+    app.add_flag("--strict", options.strict, "Refuse a file of which anything would be lost, instead of warning");
     app.add_option("--stats", options.stats, "Write what was found and done as JSON (- = stdout)");
 }
 
@@ -172,7 +175,7 @@ Json json_of(const glm::vec3& v) {
 }
 
 Json stats_of(const model::Mesh& mesh, const motion::Bounds& bounds, const pointsample::PointModel& model,
-              double seconds) {
+              std::span<const std::string> warnings, double seconds) {
     Json stats;
     stats["triangles"] = mesh.triangle_count();
     stats["vertices"] = mesh.vertex_count();
@@ -184,6 +187,7 @@ Json stats_of(const model::Mesh& mesh, const motion::Bounds& bounds, const point
     Json& coverage = stats["coverage"] = Json::array();
     for (const pointsample::Coverage& step : model.coverage)
         coverage.push_back({{"points", step.points}, {"radius", step.radius}});
+    stats["warnings"] = warnings;
     stats["seconds"] = seconds;
     stats["peak_mb"] = peak_megabytes();
     return stats;
@@ -197,6 +201,8 @@ void run(const Options& options) {
     if (!options.stats.empty()) stats.emplace(options.stats);
 
     const model::Character character = model::load_mesh(options.input);
+    const std::vector<std::string> warnings = apps::lines_of(options.input, character.warnings);
+    apps::say("pointsample", warnings, options.strict);
     const std::vector<pointsample::PosedMesh> poses = poses_of(character, options);
     const pointsample::SampleOptions wanted{static_cast<std::size_t>(options.points), options.seed, options.order(),
                                             options.visible_only};
@@ -211,7 +217,7 @@ void run(const Options& options) {
     write_points(output.stream(), model, options, key);
     if (stats) {
         const motion::Bounds bounds = motion::bounds_of(poses.front().positions);
-        stats->stream() << stats_of(character.mesh, bounds, model, seconds.count()).dump(2) << '\n';
+        stats->stream() << stats_of(character.mesh, bounds, model, warnings, seconds.count()).dump(2) << '\n';
     }
     output.commit();
     if (stats) stats->commit();

@@ -56,7 +56,7 @@ public:
           path_from_file_(load_path(options.camera)),
           canvas_(options),
           stage_(build_stage(options.characters, options.people, options.seed, PointCache(options.cache),
-                             canvas_.models_way())),
+                             canvas_.models_way(), options.strict)),
           path_(path_from_file_ ? *path_from_file_ : stage_->place.cameras.named(options.camera)),
           clock_(options.fixed_step || !canvas_.window()),
           width_(options.width),
@@ -87,6 +87,7 @@ public:
 
     render::Image picture() const { return canvas_.renderer().read_image(); }
     std::span<const sfsm::TraceRow> rows() const { return rows_; }
+    std::span<const std::string> warnings() const { return stage_->warnings; }
 
     // What a trace must say for the run to be repeated and its decisions verified.
     std::map<std::string, std::string> settings() const {
@@ -286,7 +287,7 @@ void run(const StadiumOptions& options) {
     Stadium stadium(options);
     stadium.run(outputs);
     if (stadium.rows().empty()) throw_if_interrupted();
-    outputs.finish(stadium.rows(), stadium.settings(),
+    outputs.finish(stadium.rows(), stadium.settings(), stadium.warnings(),
                    outputs.wants_last_picture() ? stadium.picture() : render::Image{});
 }
 

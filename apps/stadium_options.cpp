@@ -69,6 +69,7 @@ void add_scene_options(CLI::App& app, StadiumOptions& options) {
         ->check(number_over(0, 1e6));
     app.add_option("--character", options.characters,
                    "glTF, GLB, OBJ or PLY file to fill the stadium with; several mix");
+    app.add_flag("--strict", options.strict, "Refuse characters of which anything would be lost, instead of warning");
     app.add_option("--camera", options.camera, "still, close, medium, remote, roam or a FILE.json with keys")
         ->capture_default_str();
     app.add_option("--seed", options.seed, "Who sits where, looks how and does what")

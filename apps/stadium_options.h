@@ -37,6 +37,7 @@ struct StadiumOptions {
     std::uint64_t seed = 1;
     bool headless = false;
     bool fixed_step = false;
+    bool strict = false;                                     // refuse characters of which anything would be lost
     std::string trace, png, png_directory, summary, report;  // paths; empty: none; "-": stdout
     std::int64_t png_every = 0;                              // [frames] 0: none
 };

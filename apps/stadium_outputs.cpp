@@ -99,7 +99,7 @@ void StadiumOutputs::write_picture(std::int64_t frame, const render::Image& imag
 }
 
 void StadiumOutputs::finish(std::span<const sfsm::TraceRow> rows, const std::map<std::string, std::string>& settings,
-                            const render::Image& last_picture) {
+                            std::span<const std::string> warnings, const render::Image& last_picture) {
     const sfsm::Summary summary = sfsm::summarize(rows);
     if (trace_) {
         sfsm::write_trace_header(trace_->stream(), settings);
@@ -111,7 +111,7 @@ void StadiumOutputs::finish(std::span<const sfsm::TraceRow> rows, const std::map
         png_->commit();
     }
     if (summary_) {
-        summary_->stream() << sfsm::summary_json(summary, settings);
+        summary_->stream() << sfsm::summary_json(summary, settings, warnings);
         summary_->commit();
     }
     if (report_) {

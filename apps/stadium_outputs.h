@@ -30,7 +30,7 @@ public:
 
     // Puts trace, picture, summary and report in their places; a summary to read goes to stdout if no file does.
     void finish(std::span<const sfsm::TraceRow> rows, const std::map<std::string, std::string>& settings,
-                const render::Image& last_picture);
+                std::span<const std::string> warnings, const render::Image& last_picture);
 
 private:
     StadiumOptions options_;

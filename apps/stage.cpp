@@ -4,6 +4,7 @@
 
 #include "apps/interrupt.h"
 #include "apps/progress.h"
+#include "apps/warnings.h"
 #include "model/io/mesh_file.h"
 #include "pointsample/model_key.h"
 #include "pointsample/posed_mesh.h"
@@ -61,11 +62,16 @@ std::vector<figures::Figure> Stage::figures() const {
 }
 
 std::unique_ptr<Stage> build_stage(const std::vector<std::filesystem::path>& character_files, std::int64_t people,
-                                   std::uint64_t seed, const PointCache& cache, const figures::Way& way) {
+                                   std::uint64_t seed, const PointCache& cache, const figures::Way& way, bool strict) {
     auto stage = std::make_unique<Stage>();
     if (character_files.empty()) add_character(*stage, scene::make_person(), seed, pose_byte_budget, cache, way);
-    for (const std::filesystem::path& file : character_files)
-        add_character(*stage, model::load_mesh(file), seed, pose_byte_budget / character_files.size(), cache, way);
+    for (const std::filesystem::path& file : character_files) {
+        model::Character character = model::load_mesh(file);
+        const std::vector<std::string> lost = lines_of(file, character.warnings);
+        say("stadium", lost, strict);
+        stage->warnings.insert(stage->warnings.end(), lost.begin(), lost.end());
+        add_character(*stage, std::move(character), seed, pose_byte_budget / character_files.size(), cache, way);
+    }
     throw_if_interrupted();
     ProgressBar bar("Seating the crowd");
     const auto show = [&](double fraction) {

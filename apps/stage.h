@@ -23,13 +23,16 @@ struct Stage {
     std::vector<pointsample::PointModel> points;
     std::vector<scene::CastMember> cast;
     std::vector<motion::PoseTable> poses;
+    std::vector<std::string> warnings;  // what was lost of the files, a line a kind
 
     std::vector<figures::Figure> figures() const;  // point into this
 };
 
 // `character_files` empty: the built-in person. Shows progress on a terminal. Throws what the loaders throw.
+// strict: throws too if anything of a file would be lost.
 // A character gets as many points as serve where they are drawn in that way.
 std::unique_ptr<Stage> build_stage(const std::vector<std::filesystem::path>& character_files, std::int64_t people,
-                                   std::uint64_t seed, const PointCache& cache, const figures::Way& way);
+                                   std::uint64_t seed, const PointCache& cache, const figures::Way& way,
+                                   bool strict = false);
 
 }  // namespace apps

@@ -7,6 +7,7 @@
 #include "model/clip.h"
 #include "model/mesh.h"
 #include "model/skeleton.h"
+#include "model/warnings.h"
 
 namespace model {
 
@@ -15,6 +16,7 @@ struct Character {
     Mesh mesh;
     Skeleton skeleton;
     std::vector<Clip> clips;  // may be empty: a statue
+    Warnings warnings;        // what its file has that is not here
 };
 
 }  // namespace model

@@ -13,7 +13,8 @@
 
 namespace model {
 
-// An 8-bit image, rows from the top, four bytes a texel: sRGB red, green, blue and alpha. Wraps around.
+// An 8-bit image, rows from the top, four bytes a texel: sRGB red, green, blue and alpha. Read as Material::sampler
+// says.
 struct Texture {
     int width = 0, height = 0;  // [texels] > 0
     std::vector<glm::u8vec4> texels;
@@ -31,9 +32,10 @@ struct MorphTarget {
 
 // Structure of arrays, one element a vertex unless it says otherwise. All arrays are always filled.
 struct Mesh {
+    glm::dvec3 origin{0.0};                   // [file's units] that all positions are relative to
     std::vector<glm::vec3> positions;         // [file's units], in bind space
     std::vector<glm::vec3> normals;           // unit, outward
-    std::vector<glm::vec2> uvs;               // top-left origin, wraps
+    std::vector<glm::vec2> uvs;               // top-left origin
     std::vector<glm::u8vec4> colors;          // base colour factor x vertex colour, sRGB-encoded
     std::vector<Slot> slots;                  // of the person's colours (slot.h)
     std::vector<std::uint16_t> material_ids;  // into materials

@@ -125,7 +125,7 @@ Summary summarize_times(std::span<const FrameTime> frames) {
     return summary;
 }
 
-std::string summary_json(const Summary& summary, const Settings& settings) {
+std::string summary_json(const Summary& summary, const Settings& settings, std::span<const std::string> warnings) {
     std::string out = "{\n";
     append_setting(out, settings, "people", true);
     append_number(out += "  \"frames\": ", summary.frames);
@@ -153,7 +153,9 @@ std::string summary_json(const Summary& summary, const Settings& settings) {
     append_number(out += ", ", summary.state_frames[1]);
     append_number(out += ", ", summary.state_frames[2]);
     append_number(out += "],\n  \"out_of_reach_frames\": ", summary.out_of_reach_frames);
-    return out += "\n}\n";
+    out += ",\n  \"warnings\": [";
+    for (const std::string& warning : warnings) append_string(out += &warning == warnings.data() ? "" : ", ", warning);
+    return out += "]\n}\n";
 }
 
 }  // namespace sfsm

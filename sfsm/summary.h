@@ -42,6 +42,8 @@ Summary summarize_times(std::span<const FrameTime> frames);
 
 // One JSON object on several lines, ending in a line feed: the fields above under their names, and people, law, seed
 // and device as the trace settings of those names have them (null where they are missing; seed and people are numbers).
-std::string summary_json(const Summary& summary, const std::map<std::string, std::string>& settings);
+//   warnings  what was lost of the files that were read, a line a kind
+std::string summary_json(const Summary& summary, const std::map<std::string, std::string>& settings,
+                         std::span<const std::string> warnings);
 
 }  // namespace sfsm

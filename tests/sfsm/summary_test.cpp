@@ -97,7 +97,8 @@ TEST(SummaryJson, HasEveryFieldOfTheContract) {
     const std::vector<TraceRow> rows = {row(100, 100), row(120, 100, State::points)};
     const std::string json = summary_json(
         summarize(rows),
-        {{"people", "20000"}, {"law", "paper"}, {"seed", "18446744073709551615"}, {"device", "a \"b\" \\ \t"}});
+        {{"people", "20000"}, {"law", "paper"}, {"seed", "18446744073709551615"}, {"device", "a \"b\" \\ \t"}},
+        std::vector<std::string>{"a.glb: \"gone\"", "b"});
     EXPECT_EQ(json,
               "{\n"
               "  \"people\": 20000,\n"
@@ -118,14 +119,15 @@ TEST(SummaryJson, HasEveryFieldOfTheContract) {
               "  \"predicted_flip\": null,\n"
               "  \"worst_predicted_flip\": null,\n"
               "  \"state_frames\": [1, 0, 1],\n"
-              "  \"out_of_reach_frames\": 0\n"
+              "  \"out_of_reach_frames\": 0,\n"
+              "  \"warnings\": [\"a.glb: \\\"gone\\\"\", \"b\"]\n"
               "}\n");
 }
 
 TEST(SummaryJson, WhatIsMissingOrNotFiniteIsNull) {
     Summary summary;
     summary.mean_ms = std::numeric_limits<double>::infinity();
-    const std::string json = summary_json(summary, {{"seed", "0x5"}});
+    const std::string json = summary_json(summary, {{"seed", "0x5"}}, {});
     EXPECT_NE(json.find("\"people\": null"), std::string::npos) << json;
     EXPECT_NE(json.find("\"mean_ms\": null"), std::string::npos) << json;
     EXPECT_NE(json.find("\"seed\": \"0x5\""), std::string::npos) << json;
