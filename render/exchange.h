@@ -39,8 +39,9 @@ public:
     // `way` is only asked here.
     Exchange(std::span<const Kind> kinds, const figures::Way& way);
 
-    // [px] Sides of cells that points may be added up in; the first alone of a way without cells.
-    static constexpr std::array cell_sides = {1.0, 1.68, 2.4, 3.36};
+    // [px] Sides of cells that points may be added up in; the first alone of a way without cells. In larger ones a far
+    // crowd is a smear, to the eye much more than to FLIP.
+    static constexpr std::array cell_sides = {1.0, 1.68, 2.4};
     std::span<const double> cells() const { return cells_; }
 
     // What holds at a rate, in cells of a size.

@@ -11,6 +11,9 @@ namespace render {
 namespace {
 
 constexpr float first_size = -8, bins_per_octave = 4;
+// Of a rate at which cells change: there they don't yet (Exchange::step_below), and nothing is between.
+constexpr double just_below = 1 - 1.0 / 512;
+static_assert(1 / just_below < sfsm::least_rise);
 
 float bin_at(float surface) {
     return (octaves(surface) - first_size) * bins_per_octave;
@@ -207,18 +210,26 @@ std::span<const sfsm::RateStep> RateForecaster::finish() {
     const auto moves = movers_.finish(limit_);
     for (std::size_t i = 0; i < rows_.size(); ++i)
         if (rows_[i].first <= rows_[i].last) sum_up(rows_[i], i / (2 * Exchange::shares));
-    double most_loss = 0;
+    steps_.clear();
     std::size_t cell = 0;
     for (std::size_t step = 0; step < Exchange::steps; ++step) {
-        sfsm::RateStep& out = steps_[step];
-        out = {};
-        out.rate = Exchange::rate_of(static_cast<int>(step));
-        const Sum sum = price_shapes(step, cell);
-        cells_[step] = cell;
-        describe(sum, moves[step], out);
-        most_loss = out.loss = std::max(most_loss, out.loss);
+        const double rate = Exchange::rate_of(static_cast<int>(step));
+        const Sum before = price_all(step, cell);
+        const std::size_t best = step % Exchange::steps_an_octave == 0 ? best_cell(step, cell, before) : cell;
+        if (best != cell && step > 0) add_step(rounded(rate * just_below, 1e7), before, moves[step]);
+        add_step(rate, best == cell ? before : price_all(step, best), moves[step]);
+        cells_[step] = cell = best;
     }
     return steps_;
+}
+
+// Losses never shrink along the list.
+void RateForecaster::add_step(double rate, const Sum& sum, const PaceForecaster::Price& moves) {
+    const double least_loss = steps_.empty() ? 0 : steps_.back().loss;
+    sfsm::RateStep& out = steps_.emplace_back();
+    out.rate = rate;
+    describe(sum, moves, out);
+    out.loss = std::max(out.loss, least_loss);
 }
 
 void RateForecaster::describe(const Sum& sum, const PaceForecaster::Price& moves, sfsm::RateStep& out) const {
@@ -238,25 +249,22 @@ void RateForecaster::describe(const Sum& sum, const PaceForecaster::Price& moves
     out.loss = rounded((sum.error + moves.error) / pixels_, 1e6);
 }
 
-// In the cells that cost least, but none finer than at lower rates. Cells take time by how many there are, and change
-// at octaves of the rate only.
-RateForecaster::Sum RateForecaster::price_shapes(std::size_t step, std::size_t& cell) const {
+// The cells that cost least, but none finer than `cell`, which comes to `now`. Cells take time by how many there are.
+std::size_t RateForecaster::best_cell(std::size_t step, std::size_t cell, const Sum& now) const {
+    constexpr double worth_a_change = 0.97;  // pictures of other cells look different, and costs aren't known better
     const double rate = Exchange::rate_of(static_cast<int>(step));
     const auto cost_of = [&](const Sum& sum, std::size_t at) {
         const double side = exchange_.cells()[at];
         const double resampled = at > 0 ? way_->effort.resampling * covered() * pixels_ / (side * side) : 0;
         return sum.error + rate * (sum.pieces(way_->effort) + resampled);
     };
-    Sum best = price_all(step, cell);
-    if (step % Exchange::steps_an_octave != 0) return best;
-    double least = cost_of(best, cell);
+    std::size_t best = cell;
+    double least = worth_a_change * cost_of(now, cell);
     for (std::size_t at = cell + 1; at < exchange_.cells().size(); ++at) {
-        const Sum sum = price_all(step, at);
-        const double cost = cost_of(sum, at);
-        if (!(cost < least)) break;
-        best = sum;
+        const double cost = cost_of(price_all(step, at), at);
+        if (!(cost < least)) continue;
         least = cost;
-        cell = at;
+        best = at;
     }
     return best;
 }

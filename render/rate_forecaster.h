@@ -60,7 +60,8 @@ public:
     // Forgets the last frame. `limit`: of that view.
     void begin(const View& view, const ErrorLimit& limit);
     void add(const Group& group);
-    // Of all who were added; valid until the next begin().
+    // Of all who were added; valid until the next begin(). A step each of the exchange, and one just below those at
+    // which cells change.
     std::span<const sfsm::RateStep> finish();
 
     // [0, 1] of the picture that people cover.
@@ -155,7 +156,8 @@ private:
                            kinds_.size() +
                        kind];
     }
-    Sum price_shapes(std::size_t step, std::size_t& cell) const;
+    void add_step(double rate, const Sum& sum, const PaceForecaster::Price& moves);
+    std::size_t best_cell(std::size_t step, std::size_t cell, const Sum& now) const;
     Sum price_all(std::size_t step, std::size_t cell) const;
     void sum_up(Row& row, std::size_t kind) const;
     void price_row(const Row& row, std::size_t kind, bool is_block, const Setting& setting, Sum& sum) const;
@@ -176,7 +178,7 @@ private:
     Sum near_;
     PaceForecaster movers_;
     ErrorLimit limit_;
-    std::array<sfsm::RateStep, Exchange::steps> steps_;
+    std::vector<sfsm::RateStep> steps_;
     std::array<std::size_t, Exchange::steps> cells_{};
 };
 

@@ -22,6 +22,9 @@ struct Step {
     bool operator==(const Step&) const = default;
 };
 
+// A rate that is less than so many times the one before: what is drawn changes there at once.
+inline constexpr double least_rise = 1.004;
+
 // One candidate of the list `rates`: everybody drawn and moved as the rate has it.
 struct RateStep {
     double rate = 0;  // [px / piece] > 0: Decision::rate
@@ -48,7 +51,8 @@ struct Forecast {
     // Empty where the renderer knows no rates. The rate rises along it, the loss never shrinks, and the work, by what
     // pieces are believed to cost (work.h), never grows. Between two steps laws interpolate: rates and counts in
     // straight lines of logarithms, losses in straight lines; counts of a kind that begins there in a straight line,
-    // and of one that ends there as if it ended at 1 (rate_plans.h says why). Octaves of the rate apart at most.
+    // and of one that ends there as if it ended at 1 (rate_plans.h says why). Octaves of the rate apart at most. Two
+    // whose rates rise by less than least_rise have nothing between them.
     std::span<const RateStep> rates = {};
 };
 

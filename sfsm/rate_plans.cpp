@@ -56,6 +56,11 @@ Plan RatePlans::plan_of(const Place& place) const {
     return plan;
 }
 
+// Nothing is between the step and the one before.
+bool RatePlans::is_leap(std::size_t at) const {
+    return at > 0 && forecast_.rates[at].rate < least_rise * forecast_.rates[at - 1].rate;
+}
+
 // What its D and S alone would lose.
 double RatePlans::lost_px(std::size_t step) const {
     const Decision decision = decision_of(plan_of({step, 1}));
@@ -68,6 +73,7 @@ RatePlans::Place RatePlans::place_at_rate(double rate) const {
     std::size_t at = 0;
     while (at + 1 < rates.size() && rates[at].rate < rate) ++at;
     if (at == 0 || !(rates[at].rate > rate && rates[at - 1].rate > 0)) return {at, 1};
+    if (is_leap(at)) return {at - 1, 1};
     const double before = rates[at - 1].rate;
     return {at, std::clamp(std::log(rate / before) / std::log(rates[at].rate / before), 0.0, 1.0)};
 }
@@ -77,7 +83,8 @@ RatePlans::Place RatePlans::place_at_px(double px) const {
     for (std::size_t at = 0; at < forecast_.rates.size(); ++at) {
         const double here = lost_px(at);
         if (here >= px)
-            return {at, at > 0 && here > before ? std::clamp((px - before) / (here - before), 0.0, 1.0) : 1};
+            return {at, at > 0 && here > before && !is_leap(at) ? std::clamp((px - before) / (here - before), 0.0, 1.0)
+                                                                : 1};
         before = here;
     }
     return {forecast_.rates.size() - 1, 1};
@@ -125,7 +132,8 @@ RatePlans::Place RatePlans::fitting_place(const Prices& prices, double budget_ms
     double before_ms = 0;
     for (std::size_t i = 0; i < forecast_.rates.size(); ++i) {
         const double ms = step_ms(i, prices);
-        if (ms <= budget_ms) return i == 0 ? Place{0, 1} : filling_place(i, before_ms, ms, prices, budget_ms);
+        if (ms <= budget_ms)
+            return i == 0 || is_leap(i) ? Place{i, 1} : filling_place(i, before_ms, ms, prices, budget_ms);
         before_ms = ms;
     }
     return cheapest_place(prices);

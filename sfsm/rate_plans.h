@@ -45,6 +45,7 @@ private:
     Plan plan_of(const Place& place) const;
     std::array<double, work_kinds> counts_at(const Place& place) const;
     double loss_at(const Place& place) const;
+    bool is_leap(std::size_t at) const;
     double lost_px(std::size_t step) const;
     double step_ms(std::size_t step, const Prices& prices) const;
     Place place_at_rate(double rate) const;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <string>
 
 #include "render/select.h"
@@ -54,6 +55,10 @@ sfsm::Decision at_rate(double rate) {
     return decision;
 }
 
+const sfsm::RateStep& step_at(std::span<const sfsm::RateStep> rates, double rate) {
+    return *std::ranges::find(rates, rate, &sfsm::RateStep::rate);
+}
+
 double count(const sfsm::Work& work, WorkKind kind) {
     return static_cast<double>(work[kind]);
 }
@@ -92,7 +97,7 @@ TEST(RateForecast, CountsWhatSelectionDraws) {
         Totals all;
         for (const Seen& seen : views_of(scene)) {
             const auto rates = selector.survey(seen.view, 100).forecast.rates;
-            ASSERT_EQ(rates.size(), Exchange::steps);
+            ASSERT_GE(rates.size(), Exchange::steps);
             for (const sfsm::RateStep& step : rates) {
                 const Frame& frame = selector.select(at_rate(step.rate), 99);
                 far_blocks += frame.far_blocks.size();
@@ -141,7 +146,7 @@ TEST(RateForecast, CountsWhoMovesOnAverage) {
                 double foreseen = 0, moved = 0;
                 for (std::int64_t tick = 100; tick < 100 + motion::max_period; ++tick) {
                     const auto rates = selector.survey(seen.view, tick).forecast.rates;
-                    foreseen += count(rates[static_cast<std::size_t>(step)].work, WorkKind::motion_update);
+                    foreseen += count(step_at(rates, rate).work, WorkKind::motion_update);
                     moved += count(selector.select(at_rate(rate), tick - 1).work, WorkKind::motion_update);
                 }
                 foreseen /= motion::max_period;
@@ -152,6 +157,28 @@ TEST(RateForecast, CountsWhoMovesOnAverage) {
             }
         }
     }
+}
+
+// Cells of another size are other work at once: a rate just below is foreseen by itself.
+TEST(RateForecast, ForeseesBothSidesOfAChangeOfCells) {
+    const figures::Way& way = figures::natively();
+    const tests::SmallScene& scene = scene_of(way);
+    Selector selector(scene.crowd, scene.cast, scene.figures(), {.way = &way});
+    int changes = 0;
+    for (const Seen& seen : views_of(scene)) {
+        const auto rates = selector.survey(seen.view, 100).forecast.rates;
+        for (std::size_t i = 1; i < rates.size(); ++i) {
+            if (!(rates[i].rate < sfsm::least_rise * rates[i - 1].rate)) continue;
+            ++changes;
+            const double coarser = count(selector.select(at_rate(rates[i].rate), 99).work, WorkKind::point);
+            const double finer = count(selector.select(at_rate(rates[i - 1].rate), 99).work, WorkKind::point);
+            const double between =
+                count(selector.select(at_rate(0.5 * (rates[i].rate + rates[i - 1].rate)), 99).work, WorkKind::point);
+            EXPECT_LT(coarser, 0.9 * finer) << seen.name;
+            EXPECT_NEAR(between, finer, 0.01 * finer) << seen.name;
+        }
+    }
+    EXPECT_GT(changes, 2);
 }
 
 TEST(RateForecast, LosesMoreAndCostsLessAlongTheRates) {
@@ -266,8 +293,10 @@ struct Troupe : tests::Troupe {
         for (std::size_t kind = 0; kind < characters.size(); ++kind)
             for (float depth = 5; depth < 900 && (!only || *only == kind); depth *= 1.1f)
                 forecaster.add(group(kind, depth));
-        const auto steps = forecaster.finish();
-        return {steps.begin(), steps.end()};
+        const auto rates = forecaster.finish();
+        std::vector<sfsm::RateStep> steps;
+        for (int step = 0; step < Exchange::steps; ++step) steps.push_back(step_at(rates, Exchange::rate_of(step)));
+        return steps;
     }
 };
 

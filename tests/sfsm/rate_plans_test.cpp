@@ -19,7 +19,7 @@ namespace {
 constexpr double rounding = 1e-9;
 constexpr double unused = 1e-3;  // of a budget, that a place between two steps may leave
 
-// Work falls and loss grows along the rates; at the prices the time may still rise.
+// Work falls and loss grows along the rates; at the prices the time may still rise. Some steps are leaps.
 struct Rates {
     std::vector<Step> motion = {motion_step(std::numeric_limits<double>::infinity(), 1000, 0)};
     std::vector<Step> shapes = {shape_step(0, 1000, 0, 0), shape_step(1, 0, 500, 1)};
@@ -32,7 +32,7 @@ struct Rates {
         for (int i = 0; i < steps; ++i) {
             rates.push_back(rate_step(rate, std::llround(points), std::llround(updates), loss));
             rates.back().work[WorkKind::triangle] = std::llround(triangles);
-            rate *= uniform(random, 1.1, 2);
+            rate *= random() % 6 == 0 ? 1.002 : uniform(random, 1.1, 2);
             loss += random() % 4 == 0 ? 0 : uniform(random, 0, 0.02);
             points *= uniform(random, 0.5, 1.05);
             updates *= uniform(random, 0.7, 1);
@@ -57,11 +57,15 @@ Plan between(const RateStep& a, const RateStep& b, double share) {
     return plan;
 }
 
+bool is_leap(const std::vector<RateStep>& rates, std::size_t at) {
+    return rates[at].rate < 1.004 * rates[at - 1].rate;
+}
+
 std::vector<Plan> many_places(const std::vector<RateStep>& rates) {
     constexpr int between_two = 500;
     std::vector<Plan> all = {between(rates[0], rates[0], 1)};
     for (std::size_t i = 1; i < rates.size(); ++i)
-        for (int k = 1; k <= between_two; ++k)
+        for (int k = is_leap(rates, i) ? between_two : 1; k <= between_two; ++k)
             all.push_back(between(rates[i - 1], rates[i], static_cast<double>(k) / between_two));
     return all;
 }
@@ -118,6 +122,33 @@ TEST(RatePlans, NoPlaceBetweenStepsThatFitsLosesLess) {
         }
     }
     EXPECT_GT(between_steps, 50);
+}
+
+// What is drawn changes at once there: a rate in a leap comes to what is drawn below it, and no time is filled by one.
+TEST(RatePlans, NothingIsInsideALeap) {
+    std::mt19937_64 random(7);
+    int leaps = 0;
+    for (int trial = 0; trial < 300; ++trial) {
+        const Rates rates(random);
+        const Forecast forecast = rates.forecast();
+        const RatePlans plans(forecast, test_range);
+        for (std::size_t i = 1; i < rates.rates.size(); ++i) {
+            if (!is_leap(rates.rates, i)) continue;
+            ++leaps;
+            const RateStep &below = rates.rates[i - 1], &above = rates.rates[i];
+            Decision inside;
+            inside.rate = std::lerp(below.rate, above.rate, uniform(random, 0, 0.99));
+            EXPECT_EQ(plans.at(inside).counts, between(below, below, 1).counts);
+            inside.rate = above.rate;
+            EXPECT_EQ(plans.at(inside).counts, between(above, above, 1).counts);
+            const double low_ms = plan_ms(between(above, above, 1), rates.prices);
+            const double high_ms = plan_ms(between(below, below, 1), rates.prices);
+            if (!(low_ms < high_ms)) continue;
+            const double rate = plans.least_loss(rates.prices, std::lerp(low_ms, high_ms, 0.5)).rate;
+            EXPECT_FALSE(rate > below.rate * (1 + rounding) && rate < above.rate * (1 - rounding)) << trial;
+        }
+    }
+    EXPECT_GT(leaps, 300);
 }
 
 TEST(RatePlans, MoreTimeNeverLosesMore) {
