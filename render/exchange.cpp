@@ -1,6 +1,7 @@
 #include "render/exchange.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -91,6 +92,7 @@ float between(float a, float b, float share) {
 }  // namespace
 
 double Exchange::rate_of(int step) {
+    assert(step >= 0 && step < steps);
     static const auto rates = [] {
         constexpr double digits = 1e7;  // traces keep them all
         std::array<double, steps> all{};

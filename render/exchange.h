@@ -22,7 +22,7 @@ class Exchange {
 public:
     static constexpr int steps = 30, steps_an_octave = 2;  // of the rate
     static constexpr int shares = 9;                       // half octaves of v, from 1 down
-    static double rate_of(int step);                       // [px / piece]
+    static double rate_of(int step);                       // [px / piece], of a step in [0, steps)
     static float share_of(int place);                      // v
     // [px] of height: rows of taller ones show as stripes, which the eye finds at once and FLIP hardly minds.
     static constexpr double tallest_splat = 4.5;

@@ -271,10 +271,12 @@ void Selector::find_shares() {
     });
 }
 
-// Of somebody large who is partly beside the picture; who is smaller counts as in it.
+// Of somebody large who is partly beside the picture; who is smaller counts as in it. Nobody shows on more than all of
+// it.
 float Selector::on_screen(const Seen& seen, std::size_t person, float surface) const {
     constexpr float large = 4000;  // [px^2]
-    if (!(surface > large)) return 1;
+    const auto width = static_cast<float>(view_.width), height = static_cast<float>(view_.height);
+    if (!(surface > std::min(large, width * height))) return 1;
     const glm::vec3 middle = middle_of(seen, person);
     const float depth = std::max(view_.depth(middle), near_plane), pixels = view_.pixels_per_metre(depth);
     const float high = crowd_.height[person] * pixels, wide = 0.4f * high;
@@ -283,9 +285,9 @@ float Selector::on_screen(const Seen& seen, std::size_t person, float surface) c
         return std::max(end - low, 0.0f) / side;
     };
     constexpr float least = 0.05f;  // an arm may reach into it
-    return std::max(overlap(pixels * glm::dot(view_.right, middle), wide, static_cast<float>(view_.width)) *
-                        overlap(pixels * glm::dot(view_.up, middle), high, static_cast<float>(view_.height)),
-                    least);
+    const float inside = overlap(pixels * glm::dot(view_.right, middle), wide, width) *
+                         overlap(pixels * glm::dot(view_.up, middle), high, height);
+    return std::min(std::max(inside, least), width * height / (0.25f * surface));
 }
 
 // Those of its people who show are shared out over its groups as all of them are.

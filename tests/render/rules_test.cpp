@@ -261,6 +261,24 @@ TEST(RateRule, WhoIsTooNearIsAMesh) {
         }
 }
 
+// However near they are, and however few pixels there are.
+TEST(RateRule, NobodyIsExpectedToShowOnMoreThanThePicture) {
+    constexpr double most_flip = 0.5;  // of a pixel, late and as a splat
+    const glm::vec3 feet(0);
+    for (const figures::Way* way : ways) {
+        const tests::LonePeople one(tests::make_lift(0.25f, 1, 1, 8), {&feet, 1}, 2000);
+        Selector selector(one.crowd, one.cast, one.figures(), {.way = way});
+        for (const auto [width, height] : {std::pair(640, 360), std::pair(4, 4), std::pair(1, 1)})
+            for (double distance = 0.01; distance < 10; distance *= 1.5) {
+                const render::View view = render::make_view({{0, 1.7, distance}, {0, 0.9, 0}, 0.6}, width, height);
+                for (const sfsm::RateStep& step : selector.survey(view, tick).forecast.rates) {
+                    EXPECT_LE(step.loss, most_flip) << distance << " m, " << width << " px";
+                    EXPECT_LE(selector.select(at_rate(step.rate), tick - 1).expected_flip, most_flip);
+                }
+            }
+    }
+}
+
 TEST(MaxError, BoundsWhatEveryFramePromises) {
     for (const figures::Way* way : ways)
         for (const double most : {30.0, 3.0, 1.0, 0.1, 1e-9}) {
@@ -347,7 +365,7 @@ TEST(Promise, IsKept) {
             Selector selector = selector_of(*way, most);
             double motion_share = 0, splat_share = 0;
             for (const render::View& view : views())
-                for (const int step : {6, 15, 24, 31}) {
+                for (const int step : {6, 15, 24, Exchange::steps - 1}) {
                     const std::int64_t now = tick + 37 * step;
                     selector.survey(view, now);
                     const Frame exact = selector.select({}, now - 1);
