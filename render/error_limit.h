@@ -30,15 +30,24 @@ public:
     // [m] How far off they may be: pixels() is at most the limit then.
     float off(float reach, float depth) const {
         if (!is_set()) return std::numeric_limits<float>::infinity();
-        constexpr double rounding = 1 - 1e-5;
-        const double beyond = static_cast<double>(depth - reach) / (pixels_ + most_);
-        const double at_near_plane = static_cast<double>(near_plane) / pixels_;
-        return static_cast<float>(rounding * most_ * std::max(beyond, at_near_plane));
+        return std::max(beyond(reach, depth),
+                        static_cast<float>(rounding * most_ * static_cast<double>(near_plane) / pixels_));
     }
-    // [model units] The same of somebody of whom a model unit covers so many pixels.
-    float off_of(float reach, double scale) const { return off(reach, in_middle_ / static_cast<float>(scale)); }
+    // [model units] The same of somebody of whom a model unit covers so many pixels; none who may be at the near plane,
+    // as how far that is in model units is not known.
+    float off_of(float reach, double scale) const {
+        if (!is_set()) return std::numeric_limits<float>::infinity();
+        return std::max(beyond(reach, in_middle_ / static_cast<float>(scale)), 0.0f);
+    }
 
 private:
+    static constexpr double rounding = 1 - 1e-5;
+
+    // What may be off of who is beyond the near plane, in the unit of reach and depth.
+    float beyond(float reach, float depth) const {
+        return static_cast<float>(rounding * most_ * static_cast<double>(depth - reach) / (pixels_ + most_));
+    }
+
     float in_middle_ = 0;  // [px] that a metre covers at a depth of one
     double pixels_ = 0;    // the same in the corner of the picture
     double most_ = std::numeric_limits<double>::infinity();
