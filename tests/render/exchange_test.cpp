@@ -176,6 +176,23 @@ TEST(Exchange, MakesFewerMeshesAndMoreSplatsAtAHigherRate) {
     }
 }
 
+TEST(Exchange, MakesNobodyASplatWhoIsTaller) {
+    constexpr double rounding = 1e-4;
+    for (const figures::Way* way : ways) {
+        const Market market(*way);
+        double tallest = 0;
+        for (std::size_t cell = 0; cell < market.exchange.cells().size(); ++cell)
+            for (int step = 0; step < Exchange::steps; ++step)
+                for (std::size_t kind = 0; kind < market.kinds.size(); ++kind)
+                    for (float place = 0; place <= Exchange::shares - 1; place += 0.5f) {
+                        const auto sizes = market.exchange.at_step(step, cell).sizes(kind, place);
+                        const auto surface = static_cast<double>(sizes.splat_to);
+                        tallest = std::max(tallest, Person{market, kind, 0, 1, surface, 1}.height());
+                    }
+        EXPECT_NEAR(tallest, Exchange::tallest_splat, rounding * Exchange::tallest_splat);
+    }
+}
+
 bool is_between(float a, float b, float value) {
     constexpr float rounding = 1e-5f;
     return value >= std::min(a, b) - rounding && value <= std::max(a, b) + rounding;
