@@ -136,25 +136,29 @@ TEST(RateForecast, LosesWhatTheFrameIsExpectedTo) {
 }
 
 // Who moves when is by chance: over as many ticks as the longest period it is what was foreseen.
+void expect_as_many_move(Selector& selector, const Seen& seen, int step, const std::string& where) {
+    const double rate = Exchange::rate_of(step);
+    double foreseen = 0, moved = 0;
+    for (std::int64_t tick = 100; tick < 100 + motion::max_period; ++tick) {
+        const auto rates = selector.survey(seen.view, tick).forecast.rates;
+        foreseen += count(step_at(rates, rate).work, WorkKind::motion_update);
+        moved += count(selector.select(at_rate(rate), tick - 1).work, WorkKind::motion_update);
+    }
+    foreseen /= motion::max_period;
+    moved /= motion::max_period;
+    constexpr double share = 0.06, people = 4;  // blocks that a class' border runs through
+    EXPECT_NEAR(foreseen, moved, share * moved + people) << seen.name << ", rate " << rate << ' ' << where;
+}
+
 TEST(RateForecast, CountsWhoMovesOnAverage) {
     for (const figures::Way* way : ways) {
         const tests::SmallScene& scene = scene_of(*way);
+        const std::string name(sfsm::name_of(way->drawing));
         Selector selector(scene.crowd, scene.cast, scene.figures(), {.way = way});
+        Selector limited(scene.crowd, scene.cast, scene.figures(), {.way = way, .max_error = 2});
         for (const Seen& seen : views_of(scene)) {
-            for (int step = 1; step < Exchange::steps; step += 5) {
-                const double rate = Exchange::rate_of(step);
-                double foreseen = 0, moved = 0;
-                for (std::int64_t tick = 100; tick < 100 + motion::max_period; ++tick) {
-                    const auto rates = selector.survey(seen.view, tick).forecast.rates;
-                    foreseen += count(step_at(rates, rate).work, WorkKind::motion_update);
-                    moved += count(selector.select(at_rate(rate), tick - 1).work, WorkKind::motion_update);
-                }
-                foreseen /= motion::max_period;
-                moved /= motion::max_period;
-                constexpr double share = 0.06, people = 4;  // blocks that a class' border runs through
-                EXPECT_NEAR(foreseen, moved, share * moved + people)
-                    << seen.name << ", rate " << rate << ' ' << sfsm::name_of(way->drawing);
-            }
+            for (int step = 1; step < Exchange::steps; step += 5) expect_as_many_move(selector, seen, step, name);
+            expect_as_many_move(limited, seen, Exchange::steps - 1, name + " under a limit");
         }
     }
 }
