@@ -259,4 +259,21 @@ TEST(RatePlans, DistanceAndSizeStayInTheirRanges) {
 }
 
 }  // namespace
+// However much of a small loss is saved, hardly any of the picture's detail is.
+TEST(RatePlans, ALossThatIsHardlySeenIsNotWorthAChange) {
+    constexpr double tenth = 0.1;
+    const Forecast none;
+    const RatePlans plans(none, 100);
+    const auto losing = [](double flip) {
+        Plan plan;
+        plan.loss = flip / flip_of_a_pixel;
+        return plan;
+    };
+    EXPECT_FALSE(plans.is_better(losing(0), losing(0.004), tenth));
+    EXPECT_TRUE(plans.is_better(losing(0), losing(0.007), tenth));
+    EXPECT_FALSE(plans.is_better(losing(0.1), losing(0.11), tenth));
+    EXPECT_TRUE(plans.is_better(losing(0.1), losing(0.12), tenth));
+    EXPECT_FALSE(plans.is_better(losing(0.12), losing(0.1), tenth));
+}
+
 }  // namespace sfsm
