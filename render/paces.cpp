@@ -16,6 +16,7 @@ int Paces::place_of(float pixels_per_metre) {
 
 PaceForecaster::PaceForecaster(std::vector<Kind> kinds, const figures::Way& way)
     : kinds_(std::move(kinds)), way_(&way), classes_(kinds_.size() * scene::role_count * Paces::places) {
+    for (int step = 0; step < Exchange::steps; ++step) rates_[static_cast<std::size_t>(step)] = Exchange::rate_of(step);
     present_.reserve(classes_.size());
     options_.reserve(classes_.size());
 }
@@ -43,37 +44,41 @@ void PaceForecaster::solve(std::uint32_t index, const ErrorLimit& limit, Options
     const double pixels = of.shown > 0 ? of.pixels / of.shown : 0;
     const double scale = std::sqrt(static_cast<double>(of.largest) / kind.area);  // [px / model unit]
     const float allowed = limit.off_of(kind.reach, scale);
+    const double work = static_cast<double>(of.people) * way_->effort.update;  // of moving everybody once
     options.of = index;
     options.count = 0;
     for (const int period : paced_periods) {
         const auto at = static_cast<std::size_t>(period);
         if (period > 1 && !(kind.bounds->motion.single[role][at] <= allowed)) break;
         const double off = static_cast<double>(kind.staleness[role][at]) * pixels;
-        options.add({0, period > 1 ? of.shown * way_->error.of_motion(off) : 0, period},
-                    static_cast<double>(of.people) * way_->effort.update);
+        options.add(period, period > 1 ? of.shown * way_->error.of_motion(off) : 0, work / period);
     }
 }
 
-// `updates`: the work of moving everybody once.
-void PaceForecaster::Options::add(Option option, double updates) {
+void PaceForecaster::Options::add(int period, double error, double updates) {
+    double rate = 0;
     while (count > 0) {
         const Option& before = list[count - 1];
-        option.rate = (option.error - before.error) / (updates / before.period - updates / option.period);
-        if (count == 1 || option.rate > before.rate) break;
+        rate = (error - before.error) / (before.updates - updates);
+        if (count == 1 || rate > before.rate) break;
         --count;
     }
-    list[count++] = option;
+    list[count++] = {rate, error, updates, period};
 }
 
 void PaceForecaster::price(const Options& options) {
     const Class& of = classes_[options.of];
-    std::size_t at = 0;
-    for (int step = 0; step < Exchange::steps; ++step) {
-        while (at + 1 < options.count && options.list[at + 1].rate < Exchange::rate_of(step)) ++at;
-        Price& price = prices_[static_cast<std::size_t>(step)];
-        price.updates += static_cast<double>(of.people) / options.list[at].period;
-        price.error += options.list[at].error;
-        if (options.list[at].period > 1) price.nearest = std::min(price.nearest, static_cast<double>(of.nearest));
+    std::size_t step = 0;
+    for (std::size_t at = 0; at < options.count; ++at) {
+        const Option& option = options.list[at];
+        const double to = at + 1 < options.count ? options.list[at + 1].rate : std::numeric_limits<double>::infinity();
+        const double updates = static_cast<double>(of.people) / option.period;
+        for (; step < rates_.size() && !(to < rates_[step]); ++step) {
+            Price& price = prices_[step];
+            price.updates += updates;
+            price.error += option.error;
+            if (option.period > 1) price.nearest = std::min(price.nearest, static_cast<double>(of.nearest));
+        }
     }
 }
 

@@ -99,6 +99,7 @@ private:
     // The best periods of a class: each from a rate on.
     struct Option {
         double rate = 0, error = 0;
+        double updates = 0;  // [work] of all its people, a frame
         int period = 1;
     };
     struct Options {
@@ -106,7 +107,7 @@ private:
         std::size_t count = 0;
         std::array<Option, paced_periods.size()> list{};
 
-        void add(Option option, double updates);
+        void add(int period, double error, double updates);
     };
 
     std::size_t index_of(std::size_t kind, std::size_t role, int place) const {
@@ -120,6 +121,7 @@ private:
     std::vector<Class> classes_;          // by kind, role and place
     std::vector<std::uint32_t> present_;  // into them: where somebody is
     std::vector<Options> options_;        // of those
+    std::array<double, Exchange::steps> rates_{};
     std::array<Price, Exchange::steps> prices_;
 };
 

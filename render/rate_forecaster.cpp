@@ -51,8 +51,15 @@ RateForecaster::RateForecaster(std::vector<Kind> kinds, const figures::Way& way)
     exchange_ = Exchange(exchanged, way);
     movers_ = PaceForecaster(std::move(moved), way);
     know_kinds();
-    know_places();
+    know_settings();
     know_levels();
+    know_weights();
+    for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].column = i % columns();
+    below_.resize(rows_.size() * (size_bins + 1) + 1);
+    for (Share& share : shares_) {
+        share.summed.reserve(2 * kinds_.size());
+        share.binned.reserve(2 * kinds_.size());
+    }
 }
 
 void RateForecaster::know_kinds() {
@@ -61,8 +68,8 @@ void RateForecaster::know_kinds() {
         const sfsm::Work& mesh = kind.choices->all()[kind.choices->exact()].level.work;
         Prices& prices = prices_[i];
         prices.triangles = static_cast<double>(mesh[sfsm::WorkKind::triangle]);
-        prices.mesh_singles = static_cast<double>(mesh[sfsm::WorkKind::single]);
         prices.most = static_cast<double>(kind.choices->most_samples());
+        prices.fewest = std::min<double>(figures::fewest_points, prices.most);
         prices.by_ones = !(prices.most > 0) || kind.choices->all()[kind.choices->samples_at(1)].level.by_ones;
         for (std::size_t bin = 0; bin < size_bins; ++bin) {
             const double height = kind.height * std::sqrt(middle_of(bin) / kind.area);
@@ -73,14 +80,28 @@ void RateForecaster::know_kinds() {
     }
 }
 
-void RateForecaster::know_places() {
+void RateForecaster::know_settings() {
     for (std::size_t cell = 0; cell < exchange_.cells().size(); ++cell)
-        for (int step = 0; step < Exchange::steps; ++step)
-            for (int place = 0; place < Exchange::shares; ++place)
-                for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
-                    const auto sizes = exchange_.at_step(step, cell).sizes(kind, static_cast<float>(place));
-                    places_.push_back({bin_at(sizes.mesh_from), bin_at(sizes.splat_to)});
-                }
+        for (std::size_t step = 0; step < Exchange::steps; ++step)
+            for (std::size_t place = 0; place < Exchange::shares; ++place) {
+                const Exchange::Terms& terms = exchange_.at_step(static_cast<int>(step), cell);
+                const double spacing = std::exp2(static_cast<double>(terms.spacings[place]));
+                const double error = way_->error.of_points(spacing, static_cast<double>(terms.cell));
+                settings_.push_back({step, cell, spacing * spacing, error, borders_.size()});
+                for (std::size_t kind = 0; kind < kinds_.size(); ++kind)
+                    know_borders(settings_.back(), kind, terms.sizes(kind, static_cast<float>(place)));
+            }
+}
+
+// From the smallest on: splats, as few points as there may be, points by their spacing, all of a model's, meshes.
+void RateForecaster::know_borders(const Setting& setting, std::size_t kind, const Exchange::Terms::Sizes& sizes) {
+    const auto size_of_points = [&](double count) { return bin_at(static_cast<float>(count * setting.square)); };
+    for (const float splats_to : {0.0f, bin_at(sizes.splat_to)}) {
+        const float meshes_from = std::max(splats_to, bin_at(sizes.mesh_from));
+        const float few_to = std::clamp(size_of_points(prices_[kind].fewest), splats_to, meshes_from);
+        const float most_from = std::clamp(size_of_points(prices_[kind].most), few_to, meshes_from);
+        borders_.push_back({splats_to, few_to, most_from, meshes_from});
+    }
 }
 
 // Everybody of a bin is between two levels somewhere: the mean over the bin.
@@ -130,6 +151,26 @@ void RateForecaster::find_ends(std::size_t kind, const ErrorLimit& limit) {
     }
 }
 
+// Under no limit.
+void RateForecaster::know_weights() {
+    for (std::size_t kind = 0; kind < kinds_.size(); ++kind)
+        for (std::size_t bin = 0; bin < size_bins; ++bin) {
+            const Prices& prices = prices_[kind];
+            std::array<float, SizeSums::count>& sums = weights_.emplace_back().sums;
+            const auto set = [&](std::size_t sum, double weight) { sums[sum] = static_cast<float>(weight); };
+            for (const std::size_t sum : {SizeSums::people, SizeSums::surface, SizeSums::shown}) set(sum, 1);
+            set(SizeSums::triangles, prices.triangles);
+            set(SizeSums::few_points, prices.fewest);
+            set(SizeSums::most_points, prices.most);
+            set(SizeSums::mesh_error, prices.mesh_errors[bin]);
+            set(SizeSums::splat_error, prices.splat_errors[bin]);
+            for (std::size_t cell = 0; cell < exchange_.cells().size(); ++cell) {
+                set(SizeSums::few_error + cell, ends_[kind].few_errors[cell][bin]);
+                set(SizeSums::most_error + cell, ends_[kind].most_errors[cell][bin]);
+            }
+        }
+}
+
 void RateForecaster::begin(const View& view, const ErrorLimit& limit) {
     limit_ = limit;
     if (limit.is_set() || is_limited_)
@@ -139,10 +180,7 @@ void RateForecaster::begin(const View& view, const ErrorLimit& limit) {
     shown_ = 0;
     near_ = {};
     for (Row& row : rows_) {
-        for (int bin = row.first; bin <= row.last; ++bin) {
-            const auto at = static_cast<std::size_t>(bin);
-            row.people[at] = row.surface[at] = row.shown[at] = 0;
-        }
+        for (int bin = row.first; bin <= row.last; ++bin) row.bins[static_cast<std::size_t>(bin)] = {};
         row.first = size_bins;
         row.last = -1;
     }
@@ -160,25 +198,23 @@ void RateForecaster::add(const Group& group) {
     const auto at = static_cast<std::size_t>(bin);
     if (group.is_near) {
         near_.triangles += people * prices_[group.kind].triangles;
-        near_.singles += people * prices_[group.kind].mesh_singles;
+        near_.singles += people;
         near_.error += shown * prices_[group.kind].mesh_errors[at];
         return;
     }
-    const int place = std::min(static_cast<int>(group.place), Exchange::shares - 2);
-    const double next = static_cast<double>(group.place) - place;
-    add_to(rows_[index_of(group.kind, place, group.is_block)], at,
-           {(1 - next) * people, (1 - next) * surface, (1 - next) * shown});
-    if (next > 0)
-        add_to(rows_[index_of(group.kind, place + 1, group.is_block)], at,
-               {next * people, next * surface, next * shown});
+    const std::size_t place = std::min(static_cast<std::size_t>(group.place), std::size_t{Exchange::shares} - 2);
+    const double next = static_cast<double>(group.place) - static_cast<double>(place);
+    Row* row = &rows_[place * columns() + column_of(group.kind, group.is_block)];
+    add_to(row[0], at, {(1 - next) * people, (1 - next) * surface, (1 - next) * shown});
+    if (next > 0) add_to(row[columns()], at, {next * people, next * surface, next * shown});
 }
 
-void RateForecaster::add_to(Row& row, std::size_t bin, const Amount& amount) {
+void RateForecaster::add_to(Row& row, std::size_t bin, const SizeBin& people) {
     row.first = std::min(row.first, static_cast<int>(bin));
     row.last = std::max(row.last, static_cast<int>(bin));
-    row.people[bin] += amount.people;
-    row.surface[bin] += amount.surface;
-    row.shown[bin] += amount.shown;
+    row.bins[bin].people += people.people;
+    row.bins[bin].surface += people.surface;
+    row.bins[bin].shown += people.shown;
 }
 
 float RateForecaster::least_samples(std::size_t kind, float allowed) const {
@@ -208,8 +244,7 @@ double RateForecaster::covered() const {
 
 std::span<const sfsm::RateStep> RateForecaster::finish() {
     const auto moves = movers_.finish(limit_);
-    for (std::size_t i = 0; i < rows_.size(); ++i)
-        if (rows_[i].first <= rows_[i].last) sum_up(rows_[i], i / (2 * Exchange::shares));
+    sort_rows();
     steps_.clear();
     std::size_t cell = 0;
     for (std::size_t step = 0; step < Exchange::steps; ++step) {
@@ -270,101 +305,81 @@ std::size_t RateForecaster::best_cell(std::size_t step, std::size_t cell, const 
 }
 
 RateForecaster::Sum RateForecaster::price_all(std::size_t step, std::size_t cell) const {
-    const Exchange::Terms& terms = exchange_.at_step(static_cast<int>(step), cell);
     Sum sum = near_;
-    for (int place = 0; place < Exchange::shares; ++place) {
-        const double spacing = std::exp2(static_cast<double>(terms.spacings[static_cast<std::size_t>(place)]));
-        const double error = way_->error.of_points(spacing, static_cast<double>(terms.cell));
-        for (std::size_t kind = 0; kind < kinds_.size(); ++kind)
-            for (const bool is_block : {false, true}) {
-                const Row& row = rows_[index_of(kind, place, is_block)];
-                if (row.first <= row.last) price_row(row, kind, is_block, {step, cell, place, spacing, error}, sum);
-            }
+    for (std::size_t place = 0; place < Exchange::shares; ++place) {
+        const Setting& setting = settings_[(cell * Exchange::steps + step) * Exchange::shares + place];
+        const std::span<const SizedRow> rows = shares_[place].summed;
+        for (std::size_t i = 0; i < rows.size(); i += most_sized_rows)
+            price_parts(divide(rows.subspan(i, std::min(most_sized_rows, rows.size() - i)), &borders_[setting.borders]),
+                        setting, sum);
+        for (const Row* row : shares_[place].binned) price_bins(*row, setting, sum);
     }
     return sum;
 }
 
-const RateForecaster::Below& RateForecaster::Row::at(float place, Below& between) const {
-    if (!(place > static_cast<float>(first))) return below[static_cast<std::size_t>(first)];
-    if (!(place < static_cast<float>(last + 1))) return below[static_cast<std::size_t>(last) + 1];
-    const auto low = static_cast<std::size_t>(place);
-    const float share = place - static_cast<float>(low);
-    const Below &a = below[low], &b = below[low + 1];
-    for (std::size_t i = 0; i < Below::count; ++i) between.sums[i] = a.sums[i] + share * (b.sums[i] - a.sums[i]);
-    return between;
-}
-
-void RateForecaster::sum_up(Row& row, std::size_t kind) const {
-    const Prices& prices = prices_[kind];
-    const Ends& ends = ends_[kind];
-    row.below[static_cast<std::size_t>(row.first)] = {};
-    for (auto bin = static_cast<std::size_t>(row.first); bin <= static_cast<std::size_t>(row.last); ++bin) {
-        std::array<float, Below::count>& sums = row.below[bin + 1].sums = row.below[bin].sums;
-        const auto add = [&](std::size_t sum, double amount) { sums[sum] += static_cast<float>(amount); };
-        add(Below::people, row.people[bin]);
-        add(Below::surface, row.surface[bin]);
-        add(Below::shown, row.shown[bin]);
-        add(Below::mesh_error, row.shown[bin] * prices.mesh_errors[bin]);
-        add(Below::splat_error, row.shown[bin] * prices.splat_errors[bin]);
-        for (std::size_t cell = 0; cell < exchange_.cells().size(); ++cell) {
-            add(Below::few_error + cell, row.shown[bin] * ends.few_errors[cell][bin]);
-            add(Below::most_error + cell, row.shown[bin] * ends.most_errors[cell][bin]);
+void RateForecaster::sort_rows() {
+    SizeSums* below = below_.data();
+    for (std::size_t place = 0; place < Exchange::shares; ++place) {
+        Share& share = shares_[place];
+        share.summed.clear();
+        share.binned.clear();
+        for (const Row& row : std::span(rows_).subspan(place * columns(), columns())) {
+            if (row.first > row.last) continue;
+            if (is_limited_ || !prices_[row.column / 2].by_ones) {
+                share.binned.push_back(&row);
+            } else {
+                share.summed.push_back(sum_up(row, below));
+                below += row.last - row.first + 2;
+            }
         }
     }
 }
 
-// From the smallest on: splats, as few points as there may be, points by their spacing, all of a model's, meshes.
-void RateForecaster::price_row(const Row& row, std::size_t kind, bool is_block, const Setting& setting,
-                               Sum& sum) const {
-    const Prices& prices = prices_[kind];
-    if (is_limited_ || !prices.by_ones) return price_bins(row, kind, is_block, setting, sum);
-    const Places places = places_of(setting, kind);
-    const double square = setting.spacing * setting.spacing;
-    const double fewest = std::min<double>(figures::fewest_points, prices.most);
-    const float splat_to = is_block ? places.splat_to : 0;
-    const float mesh_from = std::max(splat_to, places.mesh_from);
-    const float few_to = std::clamp(bin_at(static_cast<float>(fewest * square)), splat_to, mesh_from);
-    const float most_from = std::clamp(bin_at(static_cast<float>(prices.most * square)), few_to, mesh_from);
-    std::array<Below, 4> room;
-    const Below &splats = row.at(splat_to, room[0]), &few = row.at(few_to, room[1]), &most = row.at(most_from, room[2]),
-                &mesh = row.at(mesh_from, room[3]), &all = row.below[static_cast<std::size_t>(row.last) + 1];
-    const auto between = [](const Below& a, const Below& b, std::size_t which) {
-        return static_cast<double>(b[which] - a[which]);
-    };
-    const double meshed = between(mesh, all, Below::people), pointed = between(splats, mesh, Below::people);
-    sum.triangles += meshed * prices.triangles;
-    sum.singles += meshed * prices.mesh_singles + pointed;
-    sum.splats += static_cast<double>(splats[Below::people]);
+SizedRow RateForecaster::sum_up(const Row& row, SizeSums* below) const {
+    const auto first = static_cast<std::size_t>(row.first), count = static_cast<std::size_t>(row.last + 1) - first;
+    render::sum_up(std::span(row.bins).subspan(first, count), &weights_[row.column / 2 * size_bins + first], below);
+    return {below, below + count, static_cast<float>(first), static_cast<float>(count),
+            static_cast<std::uint32_t>(row.column)};
+}
+
+// Sums of everybody of some rows at once: what a kind is worth is in them.
+void RateForecaster::price_parts(const SizeParts& parts, const Setting& setting, Sum& sum) const {
+    const double pointed = parts.few[SizeSums::people] + parts.spaced[SizeSums::people] + parts.most[SizeSums::people];
+    sum.triangles += parts.meshes[SizeSums::triangles];
+    sum.singles += parts.meshes[SizeSums::people] + pointed;
+    sum.splats += parts.splats[SizeSums::people];
     // Each has a last point in part.
-    sum.points += fewest * between(splats, few, Below::people) + between(few, most, Below::surface) / square +
-                  0.5 * between(few, most, Below::people) + prices.most * between(most, mesh, Below::people);
-    sum.sampled += static_cast<double>(mesh[Below::surface]);
-    sum.error +=
-        static_cast<double>(splats[Below::splat_error]) * way_->error.times_in_cells(exchange_.cells()[setting.cell]) +
-        between(splats, few, Below::few_error + setting.cell) + setting.error * between(few, most, Below::shown) +
-        between(most, mesh, Below::most_error + setting.cell) + between(mesh, all, Below::mesh_error);
-    sum.simplified |= pointed > 0 || splats[Below::people] > 0;
+    sum.points += parts.few[SizeSums::few_points] + parts.spaced[SizeSums::surface] / setting.square +
+                  0.5 * parts.spaced[SizeSums::people] + parts.most[SizeSums::most_points];
+    for (const SizeSums* part : {&parts.splats, &parts.few, &parts.spaced, &parts.most})
+        sum.sampled += (*part)[SizeSums::surface];
+    sum.error += parts.splats[SizeSums::splat_error] * way_->error.times_in_cells(exchange_.cells()[setting.cell]) +
+                 parts.few[SizeSums::few_error + setting.cell] + setting.error * parts.spaced[SizeSums::shown] +
+                 parts.most[SizeSums::most_error + setting.cell] + parts.meshes[SizeSums::mesh_error];
+    sum.simplified |= pointed > 0 || parts.splats[SizeSums::people] > 0;
 }
 
 // Bin by bin: where points come in levels, or each size needs some number of them.
-void RateForecaster::price_bins(const Row& row, std::size_t kind, bool is_block, const Setting& setting,
-                                Sum& sum) const {
+void RateForecaster::price_bins(const Row& row, const Setting& setting, Sum& sum) const {
+    const std::size_t kind = row.column / 2;
     const Prices& prices = prices_[kind];
     const Ends& ends = ends_[kind];
     const Levels* levels = prices.by_ones ? nullptr : &levels_[prices.first_levels + setting.step];
-    const Places places = places_of(setting, kind);
-    const double mesh_from = std::min(static_cast<double>(places.mesh_from), ends.mesh_from);
-    const double splat_to = is_block ? std::min(static_cast<double>(places.splat_to), ends.splat_to) : 0;
-    const double points_a_pixel = 1 / (setting.spacing * setting.spacing);
+    // Those alone are meshes wherever points are worse; those of blocks not below splats.
+    const SizeBorders &alone = borders_[setting.borders + column_of(kind, false)],
+                      &own = borders_[setting.borders + row.column];
+    const double mesh_from = std::min(static_cast<double>(alone.meshes_from), ends.mesh_from);
+    const double splat_to = std::min(static_cast<double>(own.splats_to), ends.splat_to);
+    const double points_a_pixel = 1 / setting.square;
     const double splat_factor = way_->error.times_in_cells(exchange_.cells()[setting.cell]);
     const Bins &few_errors = ends.few_errors[setting.cell], &most_errors = ends.most_errors[setting.cell];
     double meshed = 0, pointed = 0, splatted = 0, points = 0, sampled = 0, error = 0;
     for (auto bin = static_cast<std::size_t>(row.first); bin <= static_cast<std::size_t>(row.last); ++bin) {
-        const double people = row.people[bin], at = static_cast<double>(bin);
+        const double people = row.bins[bin].people, surface = row.bins[bin].surface, at = static_cast<double>(bin);
         const double as_splats = std::clamp(splat_to - at, 0.0, 1.0);
         const double as_mesh = (1 - as_splats) * std::clamp(at + 1 - mesh_from, 0.0, 1.0);
         const double as_points = 1 - as_splats - as_mesh;
-        double asked = row.surface[bin] * points_a_pixel, points_error = setting.error;
+        double asked = surface * points_a_pixel, points_error = setting.error;
         if (levels) asked = people * levels->counts[bin], points_error = levels->errors[bin];
         const double few = people * ends.fewest[bin], most = people * prices.most;
         if (asked < few) {
@@ -380,12 +395,12 @@ void RateForecaster::price_bins(const Row& row, std::size_t kind, bool is_block,
         pointed += as_points * people;
         splatted += as_splats * people;
         points += as_points * asked;
-        sampled += (1 - as_mesh) * row.surface[bin];
-        error += row.shown[bin] * (as_mesh * prices.mesh_errors[bin] + as_points * points_error +
-                                   as_splats * prices.splat_errors[bin] * splat_factor);
+        sampled += (1 - as_mesh) * surface;
+        error += row.bins[bin].shown * (as_mesh * prices.mesh_errors[bin] + as_points * points_error +
+                                        as_splats * prices.splat_errors[bin] * splat_factor);
     }
     sum.triangles += meshed * prices.triangles;
-    sum.singles += meshed * prices.mesh_singles + pointed;
+    sum.singles += meshed + pointed;
     sum.splats += splatted;
     sum.points += points;
     sum.sampled += sampled;

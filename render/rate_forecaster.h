@@ -12,6 +12,7 @@
 #include "render/error_limit.h"
 #include "render/exchange.h"
 #include "render/paces.h"
+#include "render/size_sums.h"
 #include "render/staleness.h"
 #include "render/view.h"
 #include "scene/crowd.h"
@@ -74,39 +75,16 @@ public:
 private:
     static constexpr int size_bins = 136;  // quarter octaves of surface, from 2^-8 px^2 on
     using Bins = std::array<double, size_bins>;
-    struct Amount {
-        double people, surface, shown;
-    };
-    static constexpr std::size_t most_cells = Exchange::cell_sides.size();
-    // What of a row is below a place among bins: of all its people, and what they lose as whatever they are drawn as;
-    // as few points, and as all of a model, by cell.
-    struct alignas(64) Below {
-        enum : std::size_t {
-            people,
-            surface,
-            shown,
-            mesh_error,
-            splat_error,
-            few_error,
-            most_error = few_error + most_cells,
-            count = 16
-        };
-        std::array<float, count> sums;
-
-        float operator[](std::size_t sum) const { return sums[sum]; }
-    };
     // Of a kind and a share, those alone and those of blocks.
     struct Row {
+        std::size_t column = 0;
         int first = size_bins, last = -1;
-        Bins people{}, surface{}, shown{};       // together: [px^2], and silhouettes' pixels that show
-        std::array<Below, size_bins + 1> below;  // by edge of bins, from that of the first
-
-        // At a place between edges: of `between`, which is filled then.
-        const Below& at(float place, Below& between) const;
+        std::array<SizeBin, size_bins> bins{};
     };
+    static_assert(Exchange::cell_sides.size() <= SizeSums::most_cells);
     // What never changes of a kind. Errors are those of people of a bin's size.
     struct Prices {
-        double triangles = 0, mesh_singles = 0, most = 0;  // of a person; points at most
+        double triangles = 0, fewest = 0, most = 0;  // of a person; points under no limit
         Bins mesh_errors{}, splat_errors{};
         bool by_ones = true;  // any number of points; else as levels_ from a place on, step by step
         std::size_t first_levels = 0;
@@ -121,10 +99,6 @@ private:
     struct Levels {
         Bins counts{}, errors{};
     };
-    // Where a kind's representations change at a step [bins].
-    struct Places {
-        float mesh_from, splat_to;
-    };
     struct Sum {
         double triangles = 0, points = 0, singles = 0, splats = 0, error = 0;
         double sampled = 0;  // [px^2] surfaces of those who are drawn as points or splats
@@ -138,30 +112,32 @@ private:
     // What prices a row at a step.
     struct Setting {
         std::size_t step, cell;
-        int place;
-        double spacing, error;  // [px] of points, and what they lose
+        double square, error;  // [px^2] that a point stands for, and what it loses
+        std::size_t borders;   // in borders_, from where on by column
+    };
+    // Who has a share: rows that are priced by their sums, and by their bins.
+    struct Share {
+        std::vector<SizedRow> summed;    // any number of points, under no limit
+        std::vector<const Row*> binned;  // the others
     };
 
-    static std::size_t index_of(std::size_t kind, int place, bool is_block) {
-        return (kind * Exchange::shares + static_cast<std::size_t>(place)) * 2 + (is_block ? 1 : 0);
-    }
-    static void add_to(Row& row, std::size_t bin, const Amount& amount);
+    // Of each kind are those alone and those of blocks.
+    static std::size_t column_of(std::size_t kind, bool is_block) { return 2 * kind + (is_block ? 1 : 0); }
+    std::size_t columns() const { return 2 * kinds_.size(); }
+    static void add_to(Row& row, std::size_t bin, const SizeBin& people);
     void know_kinds();
-    void know_places();
+    void know_settings();
+    void know_borders(const Setting& setting, std::size_t kind, const Exchange::Terms::Sizes& sizes);
     void know_levels();
+    void know_weights();
     void find_ends(std::size_t kind, const ErrorLimit& limit);
-    Places places_of(const Setting& setting, std::size_t kind) const {
-        return places_[((setting.cell * Exchange::steps + setting.step) * Exchange::shares +
-                        static_cast<std::size_t>(setting.place)) *
-                           kinds_.size() +
-                       kind];
-    }
+    void sort_rows();
+    SizedRow sum_up(const Row& row, SizeSums* below) const;
     void add_step(double rate, const Sum& sum, const PaceForecaster::Price& moves);
     std::size_t best_cell(std::size_t step, std::size_t cell, const Sum& now) const;
     Sum price_all(std::size_t step, std::size_t cell) const;
-    void sum_up(Row& row, std::size_t kind) const;
-    void price_row(const Row& row, std::size_t kind, bool is_block, const Setting& setting, Sum& sum) const;
-    void price_bins(const Row& row, std::size_t kind, bool is_block, const Setting& setting, Sum& sum) const;
+    void price_parts(const SizeParts& parts, const Setting& setting, Sum& sum) const;
+    void price_bins(const Row& row, const Setting& setting, Sum& sum) const;
     void describe(const Sum& sum, const PaceForecaster::Price& moves, sfsm::RateStep& out) const;
 
     std::vector<Kind> kinds_;
@@ -170,11 +146,15 @@ private:
     std::vector<Prices> prices_;  // by kind
     std::vector<Ends> ends_;      // by kind
     std::vector<Levels> levels_;
-    std::vector<Places> places_;  // by cell, step, share and kind
-    bool is_limited_ = false;     // the last frame was
+    std::vector<Setting> settings_;     // by cell, step and share
+    std::vector<SizeBorders> borders_;  // by setting and column
+    std::vector<SizeSums> weights_;     // by kind and bin
+    bool is_limited_ = false;           // the last frame was
     double pixels_ = 1;
-    double shown_ = 0;  // [px]
-    std::vector<Row> rows_;
+    double shown_ = 0;             // [px]
+    std::vector<Row> rows_;        // by share and column
+    std::vector<SizeSums> below_;  // row after row
+    std::array<Share, Exchange::shares> shares_;
     Sum near_;
     PaceForecaster movers_;
     ErrorLimit limit_;
