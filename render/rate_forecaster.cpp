@@ -238,6 +238,10 @@ bool RateForecaster::may_be_splat(std::size_t kind, float allowed) const {
     return off <= allowed;
 }
 
+double RateForecaster::canvas_px() const {
+    return std::max(pixels_, shown_);
+}
+
 double RateForecaster::covered() const {
     return std::min(shown_ / pixels_, 1.0);
 }
@@ -281,7 +285,7 @@ void RateForecaster::describe(const Sum& sum, const PaceForecaster::Price& moves
     } else if (std::isfinite(out.motion_distance)) {
         out.state = sfsm::State::slowed;
     }
-    out.loss = rounded((sum.error + moves.error) / pixels_, 1e6);
+    out.loss = rounded((sum.error + moves.error) / canvas_px(), 1e6);
 }
 
 // The cells that cost least, but none finer than `cell`, which comes to `now`. Cells take time by how many there are.

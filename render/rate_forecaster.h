@@ -65,6 +65,8 @@ public:
     // which cells change.
     std::span<const sfsm::RateStep> finish();
 
+    // [px] of the picture, or what people show together where that is more: several at the eye each fill it.
+    double canvas_px() const;
     // [0, 1] of the picture that people cover.
     double covered() const;
     // After finish(): in which of Exchange::cells() points are added up at a rate.

