@@ -6,12 +6,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "model/character.h"
 #include "model/input_file.h"
+#include "model/io/mesh_textures.h"
 
 namespace model {
 
@@ -82,16 +84,17 @@ void build_clips(GltfFile& file, const NodeOrder& nodes, std::vector<Clip>& clip
 // Base colour textures, each image decoded once.
 class TextureSet {
 public:
-    TextureSet(const GltfFile& file, std::vector<Texture>& textures);
+    TextureSet(const GltfFile& file, Warnings& warnings);
 
     // The id of the file's texture `texture`, or no_texture if it names none.
     std::uint8_t id_of(int texture);
 
+    std::vector<Texture> take() { return textures_.take(); }
+
 private:
     const GltfFile& file_;
-    std::vector<Texture>& textures_;
-    std::vector<std::uint8_t> id_of_image_;
-    std::size_t texels_ = 0;
+    MeshTextures textures_;
+    std::map<int, std::uint8_t> id_of_image_;
 };
 
 }  // namespace model

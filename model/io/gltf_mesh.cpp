@@ -346,7 +346,7 @@ bool has_influences(const tinygltf::Primitive& primitive) {
 }  // namespace
 
 void build_mesh(GltfFile& file, const NodeOrder& nodes, Character& character) {
-    TextureSet textures(file, character.mesh.textures);
+    TextureSet textures(file, character.warnings);
     PaletteBuilder palette(character.skeleton);
     std::map<int, Attachment> skins;
     for (const std::int32_t index : nodes.order) {
@@ -371,6 +371,7 @@ void build_mesh(GltfFile& file, const NodeOrder& nodes, Character& character) {
             writer.write_morphs(own, node.weights.empty() ? mesh.weights : node.weights);
         }
     }
+    character.mesh.textures = textures.take();
     unmirror(character);
 }
 

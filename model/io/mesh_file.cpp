@@ -32,8 +32,13 @@ Character statue_of(Mesh mesh, const std::string& name) {
     return character;
 }
 
-Character load_statue(const std::filesystem::path& path, Mesh (*read)(const std::filesystem::path&)) {
-    return with_name(path, [&] { return statue_of(read(path), path.stem().string()); });
+Character load_statue(const std::filesystem::path& path, Mesh (*read)(const std::filesystem::path&, Warnings&)) {
+    return with_name(path, [&] {
+        Warnings warnings;
+        Character character = statue_of(read(path, warnings), path.stem().string());
+        character.warnings = std::move(warnings);
+        return character;
+    });
 }
 
 }  // namespace

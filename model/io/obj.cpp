@@ -66,8 +66,8 @@ struct Corner {
 
 class ObjReader {
 public:
-    explicit ObjReader(const std::filesystem::path& path)
-        : file_(path, "an OBJ file"), materials_(path.parent_path()), looks_(1) {}
+    ObjReader(const std::filesystem::path& path, Warnings& warnings)
+        : file_(path, "an OBJ file"), materials_(path.parent_path(), warnings), looks_(1) {}
 
     Mesh read() {
         LogicalLines lines(file_);
@@ -220,7 +220,7 @@ private:
         colors_ = {};
         const std::uint16_t plain = number_of({}, mesh_.materials);
         std::vector<std::uint16_t> materials;
-        for (const ObjLook& look : looks_) materials.push_back(number_of({look.texture}, mesh_.materials));
+        for (const ObjLook& look : looks_) materials.push_back(number_of({.texture = look.texture}, mesh_.materials));
         mesh_.uvs.reserve(corners_.size());
         for (const Corner& corner : corners_) {
             mesh_.uvs.push_back(corner.uv == none ? glm::vec2(0.0f) : uvs_[corner.uv]);
@@ -259,8 +259,8 @@ private:
 
 }  // namespace
 
-Mesh read_obj(const std::filesystem::path& path) {
-    return ObjReader(path).read();
+Mesh read_obj(const std::filesystem::path& path, Warnings& warnings) {
+    return ObjReader(path, warnings).read();
 }
 
 }  // namespace model

@@ -1,11 +1,9 @@
 #include "model/io/obj_materials.h"
 
-#include <algorithm>
+#include <optional>
 #include <stdexcept>
-#include <system_error>
 
 #include "model/input_file.h"
-#include "model/io/image.h"
 #include "model/io/words.h"
 #include "model/srgb.h"
 
@@ -15,12 +13,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t most_libraries = 256;
-constexpr std::uint64_t most_image_bytes = std::uint64_t{1} << 30;
-
-bool is_file(const fs::path& path) {
-    std::error_code error;
-    return fs::is_regular_file(path, error);
-}
 
 // How many words follow an option of map_Kd at most; those of -o, -s and -t are numbers, one to three.
 int words_of_option(std::string_view option) {
@@ -48,32 +40,32 @@ std::string map_name(Words words) {
     return std::string(rest);
 }
 
-// `Kd r g b`; with one number, a grey. Spectra (Kd spectral ...) are left white.
-glm::vec3 diffuse_of(Words words) {
+// `Kd r g b`; with one number, a grey. Spectra (Kd spectral ...) are left white. None: it has what is no number.
+std::optional<glm::vec3> diffuse_of(Words words) {
     if (words.rest().starts_with("spectral") || words.rest().starts_with("xyz")) return glm::vec3(1.0f);
-    glm::vec3 color(to_float(words.next()));
-    for (int i = 1; i < 3 && !words.at_end(); ++i) color[i] = to_float(words.next());
-    return color;
+    try {
+        glm::vec3 color(to_float(words.next()));
+        for (int i = 1; i < 3 && !words.at_end(); ++i) color[i] = to_float(words.next());
+        return color;
+    } catch (const std::runtime_error&) {
+        return std::nullopt;
+    }
 }
 
 }  // namespace
 
-fs::path ObjMaterials::place_of(std::string_view name) const {
-    std::string file(name);
-    if (file.find('\0') != std::string::npos) return {};
-    std::replace(file.begin(), file.end(), '\\', '/');
-    return folder_ / file;
-}
-
 void ObjMaterials::add_libraries(std::string_view names) {
     Words words(names);
-    if (add_library(words.rest())) return;  // one name with blanks
-    for (std::string_view name = words.next(); !name.empty(); name = words.next()) add_library(name);
+    const std::string_view whole = words.rest();
+    if (add_library(whole)) return;  // one name with blanks
+    bool all = !whole.empty();
+    for (std::string_view name = words.next(); !name.empty(); name = words.next()) all = add_library(name) && all;
+    if (!all) warnings_.add("material library not found, left out", whole);
 }
 
 bool ObjMaterials::add_library(std::string_view name) {
-    const fs::path path = place_of(name);
-    if (name.empty() || !is_file(path)) return false;
+    const fs::path path = finder_.find(name);
+    if (path.empty()) return false;
     if (!libraries_.insert(path.lexically_normal().string()).second) return true;
     if (libraries_.size() > most_libraries)
         fail("more than " + std::to_string(most_libraries) + " material libraries", "fewer");
@@ -88,40 +80,37 @@ void ObjMaterials::read_library(const fs::path& path) {
     while (file.line(line)) {
         Words words(line);
         const std::string_view keyword = words.next();
-        try {
-            if (keyword == "newmtl")
-                material = &(materials_[std::string(words.rest())] = {});
-            else if (material && keyword == "Kd")
-                material->diffuse = diffuse_of(words);
-            else if (material && keyword == "map_Kd")
-                material->map = map_name(words);
-        } catch (const std::runtime_error& error) {
-            throw std::runtime_error(path.filename().string() + " line " + std::to_string(file.line_number()) + ": " +
-                                     error.what());
-        }
+        if (keyword == "newmtl")
+            material = &(materials_[std::string(words.rest())] = {});
+        else if (material && keyword == "Kd")
+            read_diffuse(words, *material);
+        else if (material && keyword == "map_Kd")
+            material->map = map_name(words);
     }
+}
+
+void ObjMaterials::read_diffuse(Words words, Material& material) {
+    const std::string text(words.rest());
+    if (const auto color = diffuse_of(words))
+        material.diffuse = *color;
+    else
+        warnings_.add("material colour is no number, left white", "Kd " + text);
 }
 
 ObjLook ObjMaterials::look_of(std::string_view name) {
     const auto found = materials_.find(name);
-    if (found == materials_.end()) return {};
+    if (found == materials_.end()) {
+        const bool none = name.empty() || name == "None" || name == "(null)";  // as exporters write
+        if (!none) warnings_.add("material not found, left white", name);
+        return {};
+    }
     const Material& material = found->second;
     ObjLook look;
-    if (!material.map.empty()) look.texture = texture_of(material.map);
+    if (!material.map.empty()) look.texture = textures_.of_file(material.map);
     // Exporters write black where a texture says it all.
-    if (look.texture != no_texture && material.diffuse == glm::vec3(0.0f)) return look;
+    if (!material.map.empty() && material.diffuse == glm::vec3(0.0f)) return look;
     for (int i = 0; i < 3; ++i) look.color[i] = unit_byte(material.diffuse[i]);
     return look;
-}
-
-std::uint8_t ObjMaterials::texture_of(const std::string& name) {
-    const fs::path path = place_of(name);
-    const auto [at, added] = texture_ids_.try_emplace(path.lexically_normal().string(), no_texture);
-    if (!added || !is_file(path)) return at->second;
-    if (textures_.size() >= no_texture) fail("more than 255 textures", "at most 255");
-    textures_.push_back(decode_image(read_file(path, "a texture", most_image_bytes), texels_, in_quotes(name)));
-    at->second = static_cast<std::uint8_t>(textures_.size() - 1);
-    return at->second;
 }
 
 }  // namespace model

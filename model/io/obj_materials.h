@@ -9,7 +9,10 @@
 #include <string_view>
 #include <vector>
 
+#include "model/io/mesh_textures.h"
+#include "model/io/words.h"
 #include "model/mesh.h"
+#include "model/warnings.h"
 
 namespace model {
 
@@ -21,17 +24,18 @@ struct ObjLook {
 
 class ObjMaterials {
 public:
-    // Names in the file are relative to `folder`.
-    explicit ObjMaterials(std::filesystem::path folder) : folder_(std::move(folder)) {}
+    // Names in the file are of files in `folder` (file_finder.h).
+    ObjMaterials(const std::filesystem::path& folder, Warnings& warnings)
+        : warnings_(warnings), finder_(folder), textures_(folder, warnings) {}
 
-    // Reads the libraries that a line `mtllib NAMES` names. One that is missing has no materials.
+    // Reads the libraries that a line `mtllib NAMES` names. One that is missing, which is said, has no materials.
     void add_libraries(std::string_view names);
 
-    // White without texture if there is no such material, without texture if its file is missing. A texture is decoded
-    // when it is first asked for. Throws std::runtime_error if it is damaged, or the 256th.
+    // White without texture if there is no such material, which is said. A texture is decoded when it is first asked
+    // for (mesh_textures.h).
     ObjLook look_of(std::string_view name);
 
-    std::vector<Texture> take_textures() { return std::move(textures_); }
+    std::vector<Texture> take_textures() { return textures_.take(); }
 
 private:
     struct Material {
@@ -39,17 +43,15 @@ private:
         std::string map;
     };
 
-    std::filesystem::path place_of(std::string_view name) const;
     bool add_library(std::string_view name);
     void read_library(const std::filesystem::path& path);
-    std::uint8_t texture_of(const std::string& name);
+    void read_diffuse(Words words, Material& material);
 
-    std::filesystem::path folder_;
+    Warnings& warnings_;
+    FileFinder finder_;
     std::set<std::string> libraries_;
     std::map<std::string, Material, std::less<>> materials_;
-    std::map<std::string, std::uint8_t> texture_ids_;
-    std::vector<Texture> textures_;
-    std::size_t texels_ = 0;
+    MeshTextures textures_;
 };
 
 }  // namespace model

@@ -431,7 +431,7 @@ void check_elements(const Header& header) {
 
 }  // namespace
 
-Mesh read_ply(const std::filesystem::path& path) {
+Mesh read_ply(const std::filesystem::path& path, Warnings&) {
     InputFile file(path, "a PLY file");
     Header header;
     try {

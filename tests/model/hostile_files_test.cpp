@@ -285,7 +285,7 @@ TEST_F(HostileFiles, ObjMaterials) {
         folder_.write("a.png", i % 2 ? damaged_bytes(image, random) : image);
         return whole;
     });
-    expect_both(100);
+    EXPECT_EQ(progress_->loaded, 2000u);  // a look that is lost is no reason to refuse
 }
 
 TEST_F(HostileFiles, PlyBytes) {

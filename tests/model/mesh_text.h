@@ -134,4 +134,11 @@ inline double area_of(const model::Mesh& mesh) {
     return twice / 2;
 }
 
+// What was said of a file's losses.
+inline std::vector<std::string> texts(const model::Warnings& warnings) {
+    std::vector<std::string> out;
+    for (const model::Warning& warning : warnings) out.push_back(model::text_of(warning));
+    return out;
+}
+
 }  // namespace tests

@@ -196,13 +196,23 @@ TEST_F(Obj, MissingLibrariesAreNoError) {
         EXPECT_EQ(load(line + ("\nusemtl a\n" + square) + "f 1 2 3\n").colors[0], glm::u8vec4(255)) << line;
 }
 
-TEST_F(Obj, DamagedMaterialsAreRefused) {
-    const std::string text = "mtllib a.mtl\nusemtl a\n" + square + "f 1 2 3\n";
-    folder_.write("a.mtl", "newmtl a\nKd 1 nan 1\n");
-    EXPECT_EQ(refusal(text), "line 1: a.mtl line 2: found 'nan'; expected a finite number");
-    folder_.write("a.mtl", "newmtl a\nmap_Kd a.png\n");
-    folder_.write("a.png", "no image");
-    EXPECT_EQ(refusal(text), "line 2: found 'a.png' in an unknown format; expected PNG or JPEG");
+TEST_F(Obj, WhatIsWrongWithMaterialsIsSaid) {
+    const std::string text = "mtllib a.mtl\nusemtl a\n" + square + "vt 0 0\nf 1/1 2/1 3/1\n";
+    folder_.write("a.png", "no image at all, but bytes enough for one");
+    const std::pair<const char*, const char*> cases[] = {
+        {"newmtl a\nKd nan nan nan\n", "material colour is no number, left white: 'Kd nan nan nan'"},
+        {"newmtl a\nKd 1 -inf 0\n", "material colour is no number, left white: 'Kd 1 -inf 0'"},
+        {"newmtl a\nKd 1 red 0\n", "material colour is no number, left white: 'Kd 1 red 0'"},
+        {"newmtl a\nmap_Kd a.png\n", "texture is in an unknown format, left out: 'a.png'"},
+        {"newmtl a\nmap_Kd none.png\n", "texture not found, left out: 'none.png'"},
+        {"newmtl b\nKd 1 0 0\n", "material not found, left white: 'a'"}};
+    for (const auto& [library, said] : cases) {
+        folder_.write("a.mtl", library);
+        const model::Character character = model::load_mesh(folder_.write("mesh.obj", text));
+        EXPECT_EQ(character.mesh.colors[0], glm::u8vec4(255)) << library;
+        EXPECT_TRUE(character.mesh.textures.empty()) << library;
+        EXPECT_EQ(tests::texts(character.warnings), std::vector<std::string>{said});
+    }
 }
 
 TEST_F(Obj, EverythingElseIsSkipped) {
