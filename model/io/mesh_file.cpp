@@ -1,6 +1,7 @@
 #include "model/io/mesh_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <string>
 #include <utility>
@@ -32,29 +33,40 @@ Character statue_of(Mesh mesh, const std::string& name) {
     return character;
 }
 
-Character load_statue(const std::filesystem::path& path, Mesh (*read)(const std::filesystem::path&, Warnings&)) {
+using Read = Mesh (*)(const std::filesystem::path&, Warnings&);
+
+Character load_statue(const std::filesystem::path& path, const std::string& name, Read read) {
     return with_name(path, [&] {
         Warnings warnings;
-        Character character = statue_of(read(path, warnings), path.stem().string());
+        Character character = statue_of(read(path, warnings), name);
         character.warnings = std::move(warnings);
         return character;
     });
 }
 
+std::string lower_case(const std::filesystem::path& path) {
+    std::string text = path.string();
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
 }  // namespace
 
 Character load_mesh(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (extension == ".glb" || extension == ".gltf") return load_gltf(path);
-    if (extension == ".obj") return load_statue(path, read_obj);
-    if (extension == ".ply") return load_statue(path, read_ply);
+    static constexpr std::array<std::pair<const char*, Read>, 4> readers{
+        {{".obj", read_obj}, {".ply", read_ply}, {".stl", read_stl}, {".off", read_off}}};
+    constexpr const char* formats = ".glb, .gltf, .obj, .ply, .stl or .off";
+    std::filesystem::path name = path.filename();
+    const bool packed = lower_case(name.extension()) == ".gz";
+    if (packed) name = name.stem();
+    const std::string extension = lower_case(name.extension());
+    if (!packed && (extension == ".glb" || extension == ".gltf")) return load_gltf(path);
+    for (const auto& [suffix, read] : readers)
+        if (extension == suffix) return load_statue(path, name.stem().string(), read);
     return with_name(path, [&]() -> Character {
-        const InputFile file(path,
-                             "a .glb, .gltf, .obj or .ply file");  // a folder's lack of extension is not the point
-        fail(extension.empty() ? "a name without extension" : "a name that ends in " + in_quotes(extension),
-             ".glb, .gltf, .obj or .ply");
+        const InputFile file(path, std::string("a file that ends in ") + formats);  // a folder has no extension
+        fail(extension.empty() ? "a name without extension" : "a name that ends in " + in_quotes(extension), formats);
     });
 }
 

@@ -15,7 +15,8 @@
 
 #include "model/input_file.h"
 #include "model/io/mesh_readers.h"
-#include "model/io/normals.h"
+#include "model/io/mesh_textures.h"
+#include "model/io/polygon_mesh.h"
 #include "model/io/words.h"
 
 namespace model {
@@ -25,8 +26,8 @@ enum class Type { i8, u8, i16, u16, i32, u32, f32, f64 };
 enum class Format { ascii, little, big };
 
 // What a property is to us.
-enum Role { x, y, z, nx, ny, nz, red, green, blue, corners, skipped };
-constexpr std::size_t vertex_roles = corners;
+enum Role { x, y, z, nx, ny, nz, red, green, blue, u, v, texture_number, corners, wedges, skipped };
+constexpr std::size_t scalar_roles = corners;
 
 struct Property {
     Type type = Type::u8;
@@ -49,7 +50,18 @@ struct Element {
 
 struct Header {
     Format format = Format::ascii;
+    std::vector<std::string> textures;
     std::vector<Element> elements;
+
+    const Element* find(std::string_view name) const {
+        const auto found = std::find_if(elements.begin(), elements.end(),
+                                        [&](const Element& element) { return element.name == name; });
+        return found == elements.end() ? nullptr : &*found;
+    }
+    bool has(std::string_view element, Role first, Role last) const {
+        const Element* found = find(element);
+        return found && found->has(first, last);
+    }
 };
 
 std::size_t size_of(Type type) {
@@ -79,17 +91,31 @@ Type type_of(std::string_view word) {
     fail(word.empty() ? "no type" : "type " + in_quotes(word), "one of PLY's, from char to double");
 }
 
-Role role_of(const std::string& element, std::string_view property, bool list) {
-    if (element == "face") {
-        const bool named = property == "vertex_indices" || property == "vertex_index";
-        return list && named ? corners : skipped;
-    }
-    static constexpr std::array<std::string_view, vertex_roles> names{"x",  "y",   "z",     "nx",  "ny",
-                                                                      "nz", "red", "green", "blue"};
-    if (element != "vertex" || list) return skipped;
+Role scalar_role_of(std::string_view property) {
+    // By their order, and what others call them.
+    static constexpr std::array<std::array<std::string_view, 4>, scalar_roles> names{{{"x"},
+                                                                                      {"y"},
+                                                                                      {"z"},
+                                                                                      {"nx"},
+                                                                                      {"ny"},
+                                                                                      {"nz"},
+                                                                                      {"red", "diffuse_red", "r"},
+                                                                                      {"green", "diffuse_green", "g"},
+                                                                                      {"blue", "diffuse_blue", "b"},
+                                                                                      {"texture_u", "u", "s"},
+                                                                                      {"texture_v", "v", "t"},
+                                                                                      {"texnumber"}}};
     for (std::size_t i = 0; i < names.size(); ++i)
-        if (names[i] == property) return static_cast<Role>(i);
+        if (std::find(names[i].begin(), names[i].end(), property) != names[i].end()) return static_cast<Role>(i);
     return skipped;
+}
+
+Role role_of(const std::string& element, std::string_view property, bool list) {
+    if (element != "vertex" && element != "face" && element != "tristrips") return skipped;
+    if (!list) return element == "tristrips" ? skipped : scalar_role_of(property);
+    if (element == "vertex") return skipped;
+    if (property == "vertex_indices" || property == "vertex_index") return corners;
+    return element == "face" && property == "texcoord" ? wedges : skipped;
 }
 
 // --- The header
@@ -128,6 +154,11 @@ Property property_of(Words& words, const std::string& element) {
     return property;
 }
 
+bool is_same(std::string_view word, std::string_view lower_case) {
+    return std::equal(word.begin(), word.end(), lower_case.begin(), lower_case.end(),
+                      [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; });
+}
+
 // Lines up to end_header.
 Header read_header(InputFile& file) {
     constexpr std::size_t most_elements = 1000;
@@ -140,6 +171,7 @@ Header read_header(InputFile& file) {
         Words words(line);
         const std::string_view keyword = words.next();
         if (keyword == "end_header") break;
+        if (keyword == "comment" && is_same(words.next(), "texturefile")) header.textures.emplace_back(words.rest());
         if (keyword == "comment" || keyword == "obj_info" || keyword.empty()) continue;
         if (keyword == "format") {
             header.format = format_of(words);
@@ -200,8 +232,7 @@ public:
 
     double number(Type type) {
         const std::string_view word = next();
-        return type == Type::f32 || type == Type::f64 ? static_cast<double>(to_float(word))
-                                                      : static_cast<double>(to_integer(word));
+        return type == Type::f32 || type == Type::f64 ? to_double(word) : static_cast<double>(to_integer(word));
     }
     void skip(Type, std::uint64_t count) {
         for (; count > 0; --count) next();
@@ -273,37 +304,69 @@ std::string text_of(double value) {
     return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
-float finite(double value) {
-    const float number = static_cast<float>(value);
-    if (!std::isfinite(number)) fail(text_of(value), "a finite number");
-    return number;
-}
-
-// Bytes as they are; 16 bits and fractions scaled to them.
+// Bytes as they are; 16 bits and fractions scaled to them. NaN is 255.
 std::uint8_t color_of(double value, Type type) {
     double scaled = value;
     if (type == Type::u16) scaled = value / 257;
-    if (type == Type::f32 || type == Type::f64) scaled = 255 * static_cast<double>(finite(value));
-    return static_cast<std::uint8_t>(std::lround(std::clamp(scaled, 0.0, 255.0)));
+    if (type == Type::f32 || type == Type::f64) scaled = 255 * value;
+    return std::isnan(scaled) ? std::uint8_t{255}
+                              : static_cast<std::uint8_t>(std::lround(std::clamp(scaled, 0.0, 255.0)));
+}
+
+// A face as it stands in the file.
+struct PlyFace {
+    std::vector<std::uint32_t> corners;
+    std::vector<glm::vec2> uvs;
+    std::optional<glm::u8vec4> color;
+    std::uint8_t texture = no_texture;
+};
+
+// The header's textures, if anything has coordinates for them.
+std::vector<std::uint8_t> textures_of(const Header& header, MeshTextures& textures, Warnings& warnings) {
+    std::vector<std::uint8_t> ids;
+    const bool used = header.has("vertex", u, v) || header.has("face", wedges, wedges);
+    for (const std::string& name : header.textures) {
+        if (used)
+            ids.push_back(textures.of_file(name));
+        else
+            warnings.add("texture without coordinates, left out", name);
+    }
+    return ids;
+}
+
+PolygonMesh::Looks looks_of(const Header& header, const std::vector<std::uint8_t>& textures) {
+    const bool textured =
+        std::any_of(textures.begin(), textures.end(), [](std::uint8_t id) { return id != no_texture; });
+    const bool colored = header.has("face", red, blue) && !header.has("vertex", red, blue);
+    return colored || (textured && header.has("face", wedges, wedges)) ? PolygonMesh::Looks::of_faces
+                                                                       : PolygonMesh::Looks::of_vertices;
 }
 
 template <typename Source>
 class Body {
 public:
-    Body(Source source, const Header& header) : source_(std::move(source)), header_(header) {
-        for (const Element& element : header.elements)
-            if (element.name == "vertex") vertex_count_ = element.count;
+    Body(Source source, const Header& header, std::vector<std::uint8_t> textures, bool counts_are_sound,
+         Warnings& warnings)
+        : source_(std::move(source)),
+          header_(header),
+          textures_(std::move(textures)),
+          may_reserve_(counts_are_sound),
+          warnings_(warnings),
+          mesh_(looks_of(header, textures_)) {
+        if (const Element* vertices = header.find("vertex")) vertex_count_ = vertices->count;
+        if (!textures_.empty()) mesh_.texture = textures_[0];
     }
 
     Mesh read() {
         for (const Element& element : header_.elements) read_element(element);
-        return std::move(mesh_);
+        for (const PlyFace& face : early_) mesh_.add_face({face.corners, face.color, face.uvs, face.texture});
+        return mesh_.finish(warnings_);
     }
 
 private:
     void read_element(const Element& element) {
         if (element.properties.empty()) return;  // nothing is in the file, whatever the count says
-        if (element.name == "vertex") reserve(element);
+        if (element.name == "vertex") prepare(element);
         std::uint64_t index = 0;
         try {
             for (; index < element.count; ++index) {
@@ -319,37 +382,76 @@ private:
         }
     }
 
-    void reserve(const Element& element) {
-        const std::size_t count = static_cast<std::size_t>(element.count);
-        mesh_.positions.reserve(count);
+    void prepare(const Element& element) {
         has_normals_ = element.has(nx, nz);
         has_colors_ = element.has(red, blue);
+        has_uvs_ = element.has(u, v) && mesh_.texture != no_texture;
+        if (!may_reserve_) return;
+        const std::size_t count = static_cast<std::size_t>(element.count);
+        mesh_.positions.reserve(count);
         if (has_normals_) mesh_.normals.reserve(count);
         if (has_colors_) mesh_.colors.reserve(count);
+        if (has_uvs_) mesh_.uvs.reserve(count);
+    }
+
+    using Values = std::array<double, scalar_roles>;
+
+    void read_scalar(const Property& property, Values& values) {
+        const double value = source_.number(property.type);
+        const bool color = property.role >= red && property.role <= blue;
+        if (color && !std::isfinite(value)) warnings_.add("colour is no number, left white", text_of(value));
+        values[property.role] = color ? color_of(value, property.type) : value;
+    }
+
+    // v counts from the bottom.
+    static glm::vec2 uv_of(double across, double up) {
+        return {static_cast<float>(across), 1.0f - static_cast<float>(up)};
     }
 
     void read_vertex(const Element& element) {
-        std::array<double, vertex_roles> values{};
+        Values values{};
         for (const Property& property : element.properties) {
             if (property.role == skipped)
                 skip(property);
-            else if (property.role >= red)
-                values[property.role] = color_of(source_.number(property.type), property.type);
             else
-                values[property.role] = source_.number(property.type);
+                read_scalar(property, values);
         }
-        mesh_.positions.emplace_back(finite(values[x]), finite(values[y]), finite(values[z]));
-        if (has_normals_) mesh_.normals.emplace_back(finite(values[nx]), finite(values[ny]), finite(values[nz]));
+        mesh_.positions.emplace_back(values[x], values[y], values[z]);
+        if (has_normals_) mesh_.normals.emplace_back(values[nx], values[ny], values[nz]);
         if (has_colors_) mesh_.colors.emplace_back(values[red], values[green], values[blue], 255);
+        if (has_uvs_) mesh_.uvs.push_back(uv_of(values[u], values[v]));
     }
 
+    // Faces, strips, and what is passed over.
     void read_other(const Element& element) {
+        Values values{};
+        face_ = {std::move(face_.corners), std::move(face_.uvs), std::nullopt, mesh_.texture};
+        face_.corners.clear();
+        face_.uvs.clear();
+        const bool strips = element.name == "tristrips";
         for (const Property& property : element.properties) {
-            if (property.role == corners)
-                read_face(property);
-            else
+            if (property.role == corners && strips)
+                read_strips(property);
+            else if (property.role == corners)
+                read_corners(property);
+            else if (property.role == wedges)
+                read_wedges(property);
+            else if (property.role == skipped)
                 skip(property);
+            else
+                read_scalar(property, values);
         }
+        if (strips || element.name != "face") return;
+        if (element.has(red, blue) && !header_.has("vertex", red, blue))
+            face_.color = glm::u8vec4(values[red], values[green], values[blue], 255);
+        if (element.has(texture_number, texture_number)) face_.texture = texture_at(values[texture_number]);
+        check_wedges();
+        add_face();
+    }
+
+    std::uint8_t texture_at(double number) const {
+        const bool exists = number >= 0 && number < static_cast<double>(textures_.size());
+        return exists ? textures_[static_cast<std::size_t>(number)] : no_texture;
     }
 
     void skip(const Property& property) {
@@ -363,14 +465,47 @@ private:
         return static_cast<std::uint64_t>(length);
     }
 
-    void read_face(const Property& property) {
+    void read_corners(const Property& property) {
+        for (std::uint64_t left = length_of(*property.count_type); left > 0; --left) {
+            check_face_corners(face_.corners.size() + 1);
+            face_.corners.push_back(corner_of(source_.number(property.type)));
+        }
+    }
+
+    // u and v of each corner, one after another.
+    void read_wedges(const Property& property) {
         const std::uint64_t count = length_of(*property.count_type);
-        std::uint32_t first = 0, previous = 0;
-        for (std::uint64_t i = 0; i < count; ++i) {
-            const std::uint32_t corner = corner_of(source_.number(property.type));
-            if (i == 0) first = corner;
-            if (i >= 2) add_triangle({first, previous, corner});
-            previous = corner;
+        for (std::uint64_t i = 0; i + 1 < count; i += 2) {
+            check_face_corners(face_.uvs.size() + 1);
+            const double across = source_.number(property.type);
+            face_.uvs.push_back(uv_of(across, source_.number(property.type)));
+        }
+        if (count % 2 == 1) source_.skip(property.type, 1);
+    }
+
+    void check_wedges() {
+        if (face_.uvs.empty() || face_.uvs.size() == face_.corners.size()) return;
+        warnings_.add("texture coordinates not one a corner, left out", "");
+        face_.uvs.clear();
+    }
+
+    // Every corner makes a triangle with the two before it; every other one of a strip is wound backwards. -1 begins
+    // another strip.
+    void read_strips(const Property& property) {
+        std::array<std::uint32_t, 3> last{};
+        std::uint64_t in_strip = 0;
+        for (std::uint64_t left = length_of(*property.count_type); left > 0; --left) {
+            const double number = source_.number(property.type);
+            if (number == -1) {
+                in_strip = 0;
+                continue;
+            }
+            last = {last[1], last[2], corner_of(number)};
+            const bool repeats = last[0] == last[1] || last[1] == last[2] || last[0] == last[2];
+            if (++in_strip < 3 || repeats) continue;
+            face_.corners.assign(last.begin(), last.end());
+            if (in_strip % 2 == 0) std::swap(face_.corners[0], face_.corners[1]);
+            add_face();
         }
     }
 
@@ -380,59 +515,38 @@ private:
         return static_cast<std::uint32_t>(index);
     }
 
-    void add_triangle(const std::array<std::uint32_t, 3>& triangle) {
-        if (mesh_.indices.size() + 3 > most_corners) fail("more than 2^31 corners of triangles", "fewer");
-        mesh_.indices.insert(mesh_.indices.end(), triangle.begin(), triangle.end());
+    // Faces may stand before the vertices.
+    void add_face() {
+        if (mesh_.positions.size() == vertex_count_)
+            mesh_.add_face({face_.corners, face_.color, face_.uvs, face_.texture});
+        else
+            early_.push_back(face_);
     }
 
     Source source_;
     const Header& header_;
+    std::vector<std::uint8_t> textures_;
+    bool may_reserve_;
+    Warnings& warnings_;
     std::uint64_t vertex_count_ = 0;
-    bool has_normals_ = false, has_colors_ = false;
-    Mesh mesh_;
+    bool has_normals_ = false, has_colors_ = false, has_uvs_ = false;
+    PlyFace face_;
+    std::vector<PlyFace> early_;
+    PolygonMesh mesh_;
 };
 
-template <typename Value>
-void keep(std::vector<Value>& values, const std::vector<std::uint32_t>& places) {
-    if (values.empty()) return;
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < values.size(); ++i)
-        if (places[i] != std::numeric_limits<std::uint32_t>::max()) values[kept++] = values[i];
-    values.resize(kept);
-}
-
-// Vertices of no triangle would count in the bounds.
-void drop_unused(Mesh& mesh) {
-    constexpr std::uint32_t unused = std::numeric_limits<std::uint32_t>::max();
-    std::vector<std::uint32_t> places(mesh.vertex_count(), unused);
-    for (const std::uint32_t corner : mesh.indices) places[corner] = 0;
-    if (std::find(places.begin(), places.end(), unused) == places.end()) return;
-    std::uint32_t used = 0;
-    for (std::uint32_t& place : places)
-        if (place != unused) place = used++;
-    for (std::uint32_t& corner : mesh.indices) corner = places[corner];
-    keep(mesh.positions, places);
-    keep(mesh.normals, places);
-    keep(mesh.colors, places);
-}
-
 void check_elements(const Header& header) {
-    const auto find = [&](const char* name) {
-        return std::find_if(header.elements.begin(), header.elements.end(),
-                            [&](const Element& element) { return element.name == name; });
-    };
-    const auto vertices = find("vertex"), faces = find("face");
-    if (vertices == header.elements.end() || !vertices->has(x, z))
-        fail("no vertices with x, y and z", "an element vertex with them");
+    const Element* vertices = header.find("vertex");
+    if (!vertices || !vertices->has(x, z)) fail("no vertices with x, y and z", "an element vertex with them");
     if (vertices->count > most_corners) fail("more than 2^31 vertices", "fewer");
-    if (faces == header.elements.end() || !faces->has(corners, corners))
-        fail("no faces", "an element face with a list vertex_indices");
+    if (!header.has("face", corners, corners) && !header.has("tristrips", corners, corners))
+        fail("no faces", "an element face or tristrips with a list vertex_indices");
 }
 
 }  // namespace
 
-Mesh read_ply(const std::filesystem::path& path, Warnings&) {
-    InputFile file(path, "a PLY file");
+Mesh read_ply(const std::filesystem::path& path, Warnings& warnings) {
+    InputFile file(path, "a PLY file", InputFile::Packing::unpacked);
     Header header;
     try {
         header = read_header(file);
@@ -442,11 +556,13 @@ Mesh read_ply(const std::filesystem::path& path, Warnings&) {
     }
     check_elements(header);
     check_counts(header, file.left());
-    Mesh mesh = header.format == Format::ascii ? Body(TextSource(file), header).read()
-                                               : Body(BinarySource(file, header.format), header).read();
-    drop_unused(mesh);
-    mesh.normals.resize(mesh.vertex_count(), glm::vec3(0.0f));
-    complete_normals(mesh.positions, mesh.indices, {}, mesh.normals);
+    MeshTextures textures(path.parent_path(), warnings);
+    const auto read = [&](auto source) {
+        return Body(std::move(source), header, textures_of(header, textures, warnings), !file.packed(), warnings)
+            .read();
+    };
+    Mesh mesh = header.format == Format::ascii ? read(TextSource(file)) : read(BinarySource(file, header.format));
+    mesh.textures = textures.take();
     return mesh;
 }
 

@@ -2,6 +2,8 @@
 
 #include <charconv>
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 
 #include "model/input_file.h"
 
@@ -28,6 +30,24 @@ bool is_tiny(std::string_view word) {
 }
 
 }  // namespace
+
+double to_double(std::string_view word) {
+    double number = 0;
+    const std::string_view digits = without_plus(word);
+    const std::errc error = parse(digits, number);
+    if (error == std::errc()) return number;
+    if (error == std::errc::result_out_of_range) return is_tiny(digits) ? 0 : std::numeric_limits<double>::infinity();
+    if (digits.find(".#") != std::string_view::npos) return std::numeric_limits<double>::quiet_NaN();
+    fail(word.empty() ? "the end of the line" : in_quotes(word), "a number");
+}
+
+double to_double_or_nan(std::string_view word) {
+    try {
+        return to_double(word);
+    } catch (const std::runtime_error&) {
+        return std::numeric_limits<double>::quiet_NaN();
+    }
+}
 
 float to_float(std::string_view word) {
     float number = 0;

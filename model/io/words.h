@@ -41,6 +41,13 @@ private:
     std::string_view rest_;
 };
 
+// The nearest double; what is too small for one is 0. NaN and infinity are numbers here, in C's and Microsoft's
+// spelling (1.#IND), and so is what is too large. Throws std::runtime_error "found 'x'; expected a number".
+double to_double(std::string_view word);
+
+// to_double, but NaN for what is none: for what a mesh can do without.
+double to_double_or_nan(std::string_view word);
+
 // The nearest float; what is too small for one is 0. Throws std::runtime_error "found 'nan'; expected a finite number".
 float to_float(std::string_view word);
 

@@ -367,7 +367,6 @@ TEST(GltfRefuses, FilesThatUnfoldWithoutEnd) {
     const tests::TemporaryFolder folder;
     EXPECT_TRUE(
         contains(complaint(folder.write("buffers.glb", tests::make_glb(twice, buffers.binary))), "two buffers"));
-
 }
 
 TEST(GltfRefuses, JsonNestedWithoutEnd) {

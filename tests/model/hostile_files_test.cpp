@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include <cmath>
 #include <cstdio>
@@ -315,6 +316,116 @@ TEST_F(HostileFiles, PlyTruncated) {
         const std::string whole = tests::ply_of(tests::make_cube(), format);
         attempt("damaged.ply", whole.size() - 1, [&](std::size_t i) { return whole.substr(0, i); });
         EXPECT_EQ(progress_->loaded, 0u) << format;
+    }
+}
+
+// All that a PLY can have at once.
+std::string full_ply() {
+    return "ply\nformat ascii 1.0\ncomment TextureFile a.png\nobj_info none\nelement vertex 6\nproperty float x\n"
+           "property float y\nproperty float z\nproperty float nx\nproperty float ny\nproperty float nz\n"
+           "property float s\nproperty float t\nelement face 2\nproperty list uchar int vertex_indices\n"
+           "property list uchar float texcoord\nproperty int texnumber\nproperty uchar red\nproperty uchar green\n"
+           "property uchar blue\nelement tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+           "2 0 0 0 0 1 0 0\n2 1 0 0 0 1 0 1\n1 1 0 0 0 1 1 1\n1 2 0 0 0 1 1 0\n0 2 0 0 nan 1 0 0\n0 0 0 0 0 1 0 0\n"
+           "6 0 1 2 3 4 5 12 0 0 1 0 1 1 0 1 0 0 1 1 0 255 0 0\n3 0 1 2 6 0 0 1 0 1 1 0 0 0 255\n"
+           "7 0 1 2 3 -1 4 5\n";
+}
+
+TEST_F(HostileFiles, FullPly) {
+    folder_.write("a.png", tests::make_png(2, 1, "\xff\x20\x10\x01\x02\x03"));
+    const std::string whole = full_ply();
+    Random random(21);
+    attempt("damaged.ply", 4000,
+            [&](std::size_t i) { return i % 2 ? damaged_text(whole, random) : damaged_bytes(whole, random); });
+    expect_both(200);
+}
+
+std::string whole_off() {
+    return "COFF\n5 4 0\n# a comment\n0 0 0 255 0 0 255\n2 0 0 0 255 0 255\n2 2 0 0 0 255 255\n1 0.5 0 0.1 0.2 0.3\n"
+           "0 2 0 9 9 9\n5 0 1 2 3 4\n3 0 1 2 255 0 0\n4 0 1 2 4 0.5 0.5 0.5 1\n3 2 1 0 3\n";
+}
+
+TEST_F(HostileFiles, OffBytesAndWords) {
+    const std::string whole = whole_off();
+    Random random(22);
+    attempt("damaged.off", 4000,
+            [&](std::size_t i) { return i % 2 ? damaged_text(whole, random) : damaged_bytes(whole, random); });
+    expect_both(200);
+    attempt("damaged.off", whole.size(), [&](std::size_t i) { return whole.substr(0, i); });
+}
+
+std::string binary_stl() {
+    std::string bytes = "made by a test COLOR=rgba";
+    bytes.resize(80, ' ');
+    bytes += std::string("\x03\0\0\0", 4);
+    for (int i = 0; i < 3; ++i) {
+        const float numbers[12] = {0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, static_cast<float>(i)};
+        bytes.append(reinterpret_cast<const char*>(numbers), sizeof numbers);
+        bytes.append("\x1f\x80", 2);
+    }
+    return bytes;
+}
+
+TEST_F(HostileFiles, Stl) {
+    const std::string binary = binary_stl();
+    const std::string facet =
+        "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
+    const std::string text = "solid a\n" + facet + facet + "endsolid a\n";
+    Random random(23);
+    attempt("damaged.stl", 4000, [&](std::size_t i) {
+        return i % 3 == 0   ? damaged_bytes(binary, random)
+               : i % 3 == 1 ? damaged_bytes(text, random)
+                            : damaged_text(text, random);
+    });
+    expect_both(200);
+    attempt("damaged.stl", binary.size(), [&](std::size_t i) { return binary.substr(0, i); });
+    EXPECT_EQ(progress_->loaded, 0u);
+}
+
+std::string gzip(const std::string& text) {
+    z_stream stream{};
+    deflateInit2(&stream, 9, Z_DEFLATED, MAX_WBITS + 16, 8, Z_DEFAULT_STRATEGY);
+    std::string packed(deflateBound(&stream, text.size()) + 64, '\0');
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
+    stream.avail_in = static_cast<uInt>(text.size());
+    stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+    stream.avail_out = static_cast<uInt>(packed.size());
+    deflate(&stream, Z_FINISH);
+    packed.resize(stream.total_out);
+    deflateEnd(&stream);
+    return packed;
+}
+
+TEST_F(HostileFiles, Packed) {
+    const std::string packed = gzip(whole_obj());
+    Random random(24);
+    attempt("damaged.obj.gz", 2000, [&](std::size_t) { return damaged_bytes(packed, random); });
+    EXPECT_GE(progress_->refused, 1000u);  // a checksum
+    attempt("damaged.obj.gz", packed.size(), [&](std::size_t i) { return packed.substr(0, i); });
+    attempt("inside.ply.gz", 500, [&](std::size_t) { return gzip(damaged_text(full_ply(), random)); });
+    expect_both(50);
+}
+
+// What a bomb unfolds to is lines, corners, or a claim.
+TEST_F(HostileFiles, Bombs) {
+    const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+    std::string faces = square, corners = square + "f";
+    for (int i = 0; i < 1'000'000; ++i) faces += "f 1 2 3\n";
+    for (int i = 0; i < 4'000'000; ++i) corners += " 1";
+    const std::vector<std::pair<std::string, std::string>> bombs{
+        {"a.obj.gz", square + std::string(80'000'000, '\n')},
+        {"a.obj.gz", std::string(80'000'000, ' ')},
+        {"a.obj.gz", faces},
+        {"a.obj.gz", corners},
+        {"a.stl.gz", std::string(80'000'000, '\0')},
+        {"a.off.gz", "OFF\n2000000000 1 0\n" + std::string(80'000'000, '\n')},
+        {"a.ply.gz",
+         "ply\nformat binary_little_endian 1.0\nelement vertex 1000000\nproperty float x\nproperty float y\n"
+         "property float z\nelement face 1\nproperty list int int vertex_indices\nend_header\n" +
+             std::string(80'000'000, '\0')}};
+    for (const auto& [name, bytes] : bombs) {
+        const std::string packed = gzip(bytes);
+        attempt(name, 1, [&](std::size_t) { return packed; });
     }
 }
 

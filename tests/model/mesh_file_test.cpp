@@ -98,10 +98,12 @@ TEST_F(MeshFile, GltfLoadsByEitherName) {
 }
 
 TEST_F(MeshFile, OthersAreRefusedByName) {
-    std::ofstream(folder_ / "model.stl") << "solid";
+    std::ofstream(folder_ / "model.fbx") << "solid";
+    std::ofstream(folder_ / "model.glb.gz") << "solid";
     std::ofstream(folder_ / "model") << "solid";
     for (const auto& [name, found] :
-         std::vector<std::pair<std::string, std::string>>{{"model.stl", "a name that ends in '.stl'"},
+         std::vector<std::pair<std::string, std::string>>{{"model.fbx", "a name that ends in '.fbx'"},
+                                                          {"model.glb.gz", "a name that ends in '.glb'"},
                                                           {"model", "a name without extension"},
                                                           {"none", "no such file"},
                                                           {"none.obj", "no such file"},

@@ -250,7 +250,7 @@ TEST_F(Ply, BadHeadersAreRefusedWithTheLine) {
         {head + "hello\n", "line 3: found 'hello'; expected a line of a PLY header"},
         {head + "end_header\n", "found no vertices with x, y and z; expected an element vertex with them"},
         {head + vertices + "end_header\n" + corners,
-         "found no faces; expected an element face with a list vertex_indices"}};
+         "found no faces; expected an element face or tristrips with a list vertex_indices"}};
     for (const auto& [bytes, said] : cases) EXPECT_EQ(refusal(bytes), said);
 }
 
@@ -280,8 +280,10 @@ TEST_F(Ply, CountsBeyondTheFileAreRefusedBeforeAnythingIsReserved) {
 
 TEST_F(Ply, BadRecordsAreRefusedWithTheElement) {
     const std::vector<std::pair<std::string, std::string>> cases{
-        {"0 0 0\nnan 0 0\n0 1 0\n3 0 1 2\n", "vertex 1: found 'nan'; expected a finite number"},
-        {"0 0 0\n1 0 1e400\n0 1 0\n3 0 1 2\n", "vertex 1: found '1e400'; expected a finite number"},
+        {"0 0 0\nnan 0 0\n0 1 0\n3 0 1 2\n",
+         "face 0: found vertex 1 of a face at no finite place; expected finite numbers"},
+        {"0 0 0\n1 0 1e400\n0 1 0\n3 0 1 2\n",
+         "face 0: found vertex 1 of a face at no finite place; expected finite numbers"},
         {"0 0 0\n1 0\n0 1 0\n3 0 1 2\n", "vertex 1: found the end of line 11; expected another value"},
         {"0 0 0\n1 0 0 0\n0 1 0\n3 0 1 2\n", "vertex 1: found more values in line 11; expected the header's"},
         {corners + "3 0 1 3\n", "face 0: found vertex 3; expected 0 to below 3"},

@@ -1,0 +1,44 @@
+// Where a mesh's own origin lies: scans in a country's coordinates have millimetres at five million metres, which
+// floats can't tell apart. Internal to the loaders.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "model/mesh.h"
+
+namespace model {
+
+// Of a mesh in the box of these finite corners. Zero unless the box is farther from there than it is twice as large, so
+// that what floats hold to 1e-7 of its size is left as it is; else about its middle, in round binary numbers.
+glm::dvec3 origin_for(const glm::dvec3& least, const glm::dvec3& most);
+
+[[noreturn]] void refuse_vertex(std::uint64_t vertex);
+
+// Throws std::runtime_error if it is not; `vertex` is its number in the file.
+inline void check_finite(const glm::dvec3& position, std::uint64_t vertex) {
+    if (!std::isfinite(position.x) || !std::isfinite(position.y) || !std::isfinite(position.z)) refuse_vertex(vertex);
+}
+
+// Throws std::runtime_error if a float does not hold the box from `origin` on.
+void check_extent(const glm::dvec3& origin, const glm::dvec3& least, const glm::dvec3& most);
+
+// Gives a mesh its positions, about an origin of their own. position_of(i) for each of `count` vertices: finite.
+// Throws std::runtime_error if a float can't hold one.
+template <typename PositionOf>
+void place(Mesh& mesh, std::size_t count, PositionOf position_of) {
+    glm::dvec3 least(INFINITY), most(-INFINITY);
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::dvec3 position = position_of(i);
+        least = glm::min(least, position);
+        most = glm::max(most, position);
+    }
+    mesh.origin = origin_for(least, most);
+    check_extent(mesh.origin, least, most);
+    mesh.positions.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) mesh.positions.emplace_back(position_of(i) - mesh.origin);
+}
+
+}  // namespace model
