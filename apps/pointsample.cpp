@@ -66,13 +66,15 @@ constexpr const char* examples = R"(Examples:
   pointsample Fox.glb --points 500 --out - --ascii --pose 2@0.35 | head
 
 Any first part of the points is an even sample of the whole surface, unless --even or --uniform. A .ply has x y z nx ny nz
-red green blue a point, in the file's units; a .pts is packed, and made to be mapped (docs/pts-format.md). The same arguments
+red green blue a point, in the file's units, x y z as doubles where a mesh lies far from the origin; a .pts is packed, and made to be mapped (docs/pts-format.md). The same arguments
 give the same bytes.
 )";
 
 void add_options(CLI::App& app, Options& options) {
     apps::describe(app, examples);
-    app.add_option("IN", options.input, "Character or mesh: .glb, .gltf, .obj or .ply")->required();
+    app.add_option("IN", options.input,
+                   "Character or mesh: .glb, .gltf, .obj, .ply, .stl or .off; the last four also as .gz")
+        ->required();
     app.add_option("--points", options.points, "How many points, exactly")
         ->required()
         ->check(apps::whole_number(1, most_points));
@@ -170,7 +172,7 @@ double peak_megabytes() {
     return static_cast<double>(usage.ru_maxrss) / 1024.0;  // Linux counts KiB
 }
 
-Json json_of(const glm::vec3& v) {
+Json json_of(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
 }
 
@@ -180,8 +182,8 @@ Json stats_of(const model::Mesh& mesh, const motion::Bounds& bounds, const point
     stats["triangles"] = mesh.triangle_count();
     stats["vertices"] = mesh.vertex_count();
     stats["area"] = model.area;
-    stats["bounds_min"] = json_of(bounds.min);
-    stats["bounds_max"] = json_of(bounds.max);
+    stats["bounds_min"] = json_of(mesh.origin + glm::dvec3(bounds.min));
+    stats["bounds_max"] = json_of(mesh.origin + glm::dvec3(bounds.max));
     stats["points"] = model.size();
     stats["hidden_removed"] = model.hidden_removed;
     Json& coverage = stats["coverage"] = Json::array();

@@ -50,6 +50,7 @@ std::string model_key(const model::Mesh& mesh, std::span<const PosedMesh> poses,
     hasher.add(options.seed);
     hasher.add(static_cast<int>(options.order));
     hasher.add(options.visible_only);
+    if (mesh.origin != glm::dvec3(0.0)) hasher.add(mesh.origin);
     for (const PosedMesh& pose : poses) {
         hasher.add(pose.positions);
         hasher.add(pose.normals);

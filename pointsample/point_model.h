@@ -23,6 +23,7 @@ struct Coverage {
 // Structure of arrays, one element a point, but for coverage.
 struct PointModel {
     std::vector<motion::SurfacePoint> surface;  // where on the mesh
+    glm::dvec3 origin{0.0};                     // the mesh's, that positions are relative to [units]
     std::vector<glm::vec3> positions;           // of the pose they are given in
     std::vector<glm::vec3> normals;             // unit; interpolated from the vertices
     std::vector<glm::u8vec4> colors;            // vertex colour x texture, sRGB-encoded

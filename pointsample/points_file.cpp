@@ -140,6 +140,7 @@ PointsHeader header_for(const PointModel& model, const motion::Bounds& box, std:
     header.area = model.area;
     header.key_bytes = static_cast<std::uint32_t>(key_bytes);
     header.offsets = layout.offsets;
+    header.origin = {model.origin.x, model.origin.y, model.origin.z};
     return header;
 }
 
@@ -201,6 +202,8 @@ void PointsFile::check_values() const {
         if (!std::isfinite(header.box_min[i]) || !std::isfinite(header.box_max[i]) ||
             header.box_min[i] > header.box_max[i])
             fail("a box that is none", "its least before its greatest corner");
+    for (const double coordinate : header.origin)
+        if (!std::isfinite(coordinate)) fail("an origin that is no place", "finite numbers");
     if (!(header.area >= 0.0f) || !std::isfinite(header.area)) fail("no area", "a number from 0");
     for (const PackedPoint& point : points()) {
         if (point.normal_u == -128 || point.normal_v == -128) fail("a normal beyond -1", "-127 to 127");
@@ -226,6 +229,11 @@ motion::Bounds PointsFile::box() const {
     const PointsHeader& header = header_of(bytes_);
     return {{header.box_min[0], header.box_min[1], header.box_min[2]},
             {header.box_max[0], header.box_max[1], header.box_max[2]}};
+}
+
+glm::dvec3 PointsFile::origin() const {
+    const PointsHeader& header = header_of(bytes_);
+    return {header.origin[0], header.origin[1], header.origin[2]};
 }
 
 std::span<const PackedPoint> PointsFile::points() const {
@@ -256,6 +264,7 @@ PointModel PointsFile::unpack() const {
     model.spacing.assign(spacing.begin(), spacing.end());
     const auto coverage = section_of<Coverage>(bytes_, coverage_section);
     model.coverage.assign(coverage.begin(), coverage.end());
+    model.origin = origin();
     model.area = header.area;
     model.hidden_removed = static_cast<std::size_t>(header.hidden_removed);
     return model;

@@ -33,6 +33,7 @@ public:
     PointsFile(const PointsFile&) = delete;
     PointsFile& operator=(const PointsFile&) = delete;
 
+    glm::dvec3 origin() const;                       // that the box is relative to [units]
     motion::Bounds box() const;                      // of the points [units]
     std::span<const PackedPoint> points() const;     // in the model's order
     const std::string& key() const { return key_; }  // what it was made from, as write_pts was told
@@ -59,7 +60,8 @@ PointModel as_stored(const PointModel& model);
 // `key` may be anything up to 64 KiB. The model's lists are of one length, as PointModel says. 37 bytes a point.
 void write_pts(std::ostream& out, const PointModel& model, const std::string& key);
 
-// x y z nx ny nz red green blue, in the model's order.
+// x y z nx ny nz red green blue, in the model's order. x y z are doubles if the model's origin is not 0, which they
+// contain.
 enum class PlyFormat { ascii, binary_little_endian };
 void write_ply(std::ostream& out, const PointModel& model, PlyFormat format);
 

@@ -36,7 +36,8 @@ struct PointsHeader {
     float area;
     std::uint32_t key_bytes;
     std::array<std::uint64_t, section_count> offsets;
-    std::array<std::uint64_t, 5> reserved;  // 0
+    std::array<double, 3> origin;
+    std::array<std::uint64_t, 2> reserved;  // 0
 };
 static_assert(sizeof(PointsHeader) == 192);
 

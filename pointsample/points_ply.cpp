@@ -15,12 +15,26 @@ static_assert(std::endian::native == std::endian::little, "the file's byte order
 
 constexpr std::size_t block_bytes = std::size_t{1} << 16;
 
+bool has_origin(const PointModel& model) {
+    return model.origin != glm::dvec3(0.0);
+}
+
+glm::dvec3 world_position(const PointModel& model, std::size_t i) {
+    return model.origin + glm::dvec3(model.positions[i]);
+}
+
 void append_binary(std::string& out, const PointModel& model, std::size_t i) {
-    std::array<char, 2 * sizeof(glm::vec3) + 3> record;
-    std::memcpy(record.data(), &model.positions[i], sizeof(glm::vec3));
-    std::memcpy(record.data() + sizeof(glm::vec3), &model.normals[i], sizeof(glm::vec3));
-    std::memcpy(record.data() + 2 * sizeof(glm::vec3), &model.colors[i], 3);
-    out.append(record.data(), record.size());
+    const auto append = [&](const auto& value, std::size_t size) {
+        std::array<char, sizeof value> bytes;
+        std::memcpy(bytes.data(), &value, sizeof value);
+        out.append(bytes.data(), size);
+    };
+    if (has_origin(model))
+        append(world_position(model, i), sizeof(glm::dvec3));
+    else
+        append(model.positions[i], sizeof(glm::vec3));
+    append(model.normals[i], sizeof(glm::vec3));
+    append(model.colors[i], 3);
 }
 
 // The shortest digits that read as the same number.
@@ -32,8 +46,14 @@ void append_number(std::string& out, Number number, char after) {
 }
 
 void append_text(std::string& out, const PointModel& model, std::size_t i) {
-    for (const glm::vec3& vector : {model.positions[i], model.normals[i]})
+    const auto append = [&](const auto& vector) {
         for (int axis = 0; axis < 3; ++axis) append_number(out, vector[axis], ' ');
+    };
+    if (has_origin(model))
+        append(world_position(model, i));
+    else
+        append(model.positions[i]);
+    append(model.normals[i]);
     for (int channel = 0; channel < 3; ++channel)
         append_number(out, unsigned{model.colors[i][channel]}, channel < 2 ? ' ' : '\n');
 }
@@ -44,7 +64,9 @@ void write_ply(std::ostream& out, const PointModel& model, PlyFormat format) {
     const bool ascii = format == PlyFormat::ascii;
     out << "ply\nformat " << (ascii ? "ascii" : "binary_little_endian") << " 1.0\nelement vertex " << model.size()
         << '\n';
-    for (const char* name : {"x", "y", "z", "nx", "ny", "nz"}) out << "property float " << name << '\n';
+    const char* places = has_origin(model) ? "double" : "float";
+    for (const char* name : {"x", "y", "z"}) out << "property " << places << ' ' << name << '\n';
+    for (const char* name : {"nx", "ny", "nz"}) out << "property float " << name << '\n';
     for (const char* name : {"red", "green", "blue"}) out << "property uchar " << name << '\n';
     out << "end_header\n";
     std::string block;

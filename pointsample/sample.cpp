@@ -256,6 +256,7 @@ PointModel sample(const model::Mesh& mesh, std::span<const PosedMesh> poses, con
     hidden.reset();  // frees the ray-tracing scenes
 
     PointModel model;
+    model.origin = mesh.origin;
     model.area = static_cast<float>(surface.total_first_area());
     model.hidden_removed = draft.hidden_removed;
     model.surface = std::move(draft.points);

@@ -16,6 +16,7 @@
 #include "model/io/normals.h"
 #include "model/io/obj_materials.h"
 #include "model/io/origin.h"
+#include "model/io/positions.h"
 #include "model/io/triangulate.h"
 #include "model/io/vertex_splits.h"
 #include "model/io/words.h"
@@ -218,7 +219,7 @@ private:
         }
         check_face_corners(corners_.size() + 1);
         corners_.push_back(positions_[v]);
-        check_finite(positions_[v], v + std::uint64_t{1});
+        check_finite(corners_.back(), v + std::uint64_t{1});
         if (splits_.vertices().size() >= most_corners) fail("more than 2^31 vertices", "fewer");
         vertices_.push_back(splits_.vertex_of(v, {t, look_, n}));
     }
@@ -292,7 +293,7 @@ private:
     bool flat_ = false;
 
     // The file's own lists.
-    std::vector<glm::dvec3> positions_;
+    Positions positions_;
     std::vector<glm::vec3> normals_;
     std::vector<glm::u8vec3> colors_;  // empty, or as many as positions
     std::vector<glm::vec2> uvs_;

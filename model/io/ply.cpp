@@ -416,7 +416,7 @@ private:
             else
                 read_scalar(property, values);
         }
-        mesh_.positions.emplace_back(values[x], values[y], values[z]);
+        mesh_.positions.push_back({values[x], values[y], values[z]});
         if (has_normals_) mesh_.normals.emplace_back(values[nx], values[ny], values[nz]);
         if (has_colors_) mesh_.colors.emplace_back(values[red], values[green], values[blue], 255);
         if (has_uvs_) mesh_.uvs.push_back(uv_of(values[u], values[v]));

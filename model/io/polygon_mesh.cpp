@@ -19,8 +19,9 @@ void PolygonMesh::add_face(const Face& face) {
     vertices_.clear();
     for (std::size_t i = 0; i < face.corners.size(); ++i) {
         const std::uint32_t vertex = face.corners[i];
-        check_finite(positions[vertex], vertex);
-        polygon_.push_back(positions[vertex]);
+        const glm::dvec3 position = positions[vertex];
+        check_finite(position, vertex);
+        polygon_.push_back(position);
         vertices_.push_back(looks_ == Looks::of_faces ? vertex_of(face, i) : vertex);
     }
     for (const auto& triangle : triangulator_.cut(polygon_)) {

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "model/io/positions.h"
 #include "model/io/triangulate.h"
 #include "model/io/vertex_splits.h"
 #include "model/mesh.h"
@@ -25,7 +26,7 @@ public:
     explicit PolygonMesh(Looks looks) : looks_(looks) {}
 
     // One element a vertex. All but the positions may be empty instead, and none needs to be finite.
-    std::vector<glm::dvec3> positions;
+    Positions positions;
     std::vector<glm::vec3> normals;
     std::vector<glm::vec2> uvs;
     std::vector<glm::u8vec4> colors;  // white where there is a texture

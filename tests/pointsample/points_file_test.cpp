@@ -51,6 +51,7 @@ void expect_same_bits(const PointModel& a, const PointModel& b) {
     EXPECT_TRUE(same_bits(a.weights, b.weights));
     EXPECT_TRUE(same_bits(a.spacing, b.spacing));
     EXPECT_TRUE(same_bits(a.coverage, b.coverage));
+    EXPECT_EQ(a.origin, b.origin);
     EXPECT_EQ(a.area, b.area);
     EXPECT_EQ(a.hidden_removed, b.hidden_removed);
 }
@@ -83,6 +84,17 @@ TEST(PointsFile, PositionsAreWithinHalfAStepOfTheBox) {
                           size[axis] / 131070 * 1.0001f + rounding);
             }
     }
+}
+
+TEST(PointsFile, TheOriginIsExact) {
+    PointModel model = tests::random_model(20, 5);
+    const std::string near = written(model);
+    model.origin = {500000.37, -5.8e6, 1e-300};
+    EXPECT_EQ(read_back(written(model)).origin, model.origin);
+    EXPECT_EQ(pointsample::as_stored(model).origin, model.origin);
+    // Files of before it had a meaning have zeros there.
+    EXPECT_EQ(near.substr(152, 40), std::string(40, '\0'));
+    EXPECT_EQ(read_back(near).origin, glm::dvec3(0.0));
 }
 
 TEST(PointsFile, TheBoxIsExact) {
@@ -269,6 +281,9 @@ TEST(PointsFileRefuses, LiesWithAChecksumThatFits) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     const std::string whole = written(tests::random_model(20, 15));
     EXPECT_EQ(refusal(patched(whole, 0, whole[0])), "");
+    EXPECT_NE(
+        refusal(patched(whole, 160, std::numeric_limits<double>::quiet_NaN())).find("found an origin that is no place"),
+        std::string::npos);
     EXPECT_NE(refusal(patched(whole, 8, std::uint32_t{2})).find("found version 2; expected version 1"),
               std::string::npos);
     EXPECT_NE(refusal(patched(whole, 12, std::uint32_t{0x04030201})).find("byte order"), std::string::npos);

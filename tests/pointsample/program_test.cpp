@@ -3,10 +3,12 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -215,6 +217,40 @@ TEST_F(Program, TakesMeshesOfOtherFormats) {
         EXPECT_EQ(stats["area"], 1.0) << input;
         EXPECT_EQ(stats["points"], 50) << input;
     }
+}
+
+// A roof of a country's coordinates: floats there are half a metre apart.
+TEST_F(Program, PointsFarFromTheOriginAreOnTheSurface) {
+    folder_.write("far.obj",
+                  "v 500000.3 5800000.6 100\nv 500000.4 5800000.6 100.02\nv 500000.4 5800000.7 100.04\n"
+                  "v 500000.3 5800000.7 100.02\nf 1 2 3 4\n");
+    ASSERT_EQ(run("far.obj --points 200 --out out.ply --ascii --stats stats.json"), 0) << read(folder_ / "stderr");
+    const std::string ply = read(folder_ / "out.ply");
+    EXPECT_NE(ply.find("property double x\nproperty double y\nproperty double z\nproperty float nx\n"),
+              std::string::npos);
+    std::istringstream points(ply.substr(ply.find("end_header\n") + 11));
+    double x = 0, y = 0, z = 0, rest = 0;
+    int count = 0;
+    for (; points >> x >> y >> z; ++count) {
+        for (int i = 0; i < 6; ++i) points >> rest;
+        EXPECT_NEAR(z, 100 + 0.2 * (x - 500000.3) + 0.2 * (y - 5800000.6), 2e-8);
+        EXPECT_GT(x, 500000.3 - 1e-8);
+        EXPECT_LT(y, 5800000.7 + 1e-8);
+    }
+    EXPECT_EQ(count, 200);
+    const json stats = json::parse(read(folder_ / "stats.json"));
+    EXPECT_NEAR(stats["bounds_min"][0], 500000.3, 1e-8);
+    EXPECT_NEAR(stats["bounds_max"][1], 5800000.7, 1e-8);
+    EXPECT_NEAR(stats["area"], 0.01 * std::sqrt(1.08), 1e-9);
+    ASSERT_EQ(run("far.obj --points 200 --out binary.ply"), 0);
+    const std::string binary = read(folder_ / "binary.ply");
+    const std::size_t begin = binary.find("end_header\n") + 11;
+    ASSERT_EQ(binary.size() - begin, 200u * (3 * 8 + 3 * 4 + 3));
+    std::memcpy(&y, binary.data() + begin + 8, sizeof y);
+    EXPECT_NEAR(y, 5800000.65, 0.05);
+    ASSERT_EQ(run("far.obj --points 200 --out out.pts"), 0);
+    const pointsample::PointsFile file(folder_ / "out.pts");
+    EXPECT_NEAR(file.origin().y + file.box().min.y, 5800000.6, 0.05);
 }
 
 TEST_F(Program, StatsSayHowWellPrefixesCover) {
