@@ -25,18 +25,24 @@ inline void check_finite(const glm::dvec3& position, std::uint64_t vertex) {
 // Throws std::runtime_error if a float does not hold the box from `origin` on.
 void check_extent(const glm::dvec3& origin, const glm::dvec3& least, const glm::dvec3& most);
 
-// Gives a mesh its positions, about an origin of their own. position_of(i) for each of `count` vertices: finite.
-// Throws std::runtime_error if a float can't hold one.
+// The origin of `count` vertices at position_of(i), all finite. Throws std::runtime_error if a float can't hold one.
 template <typename PositionOf>
-void place(Mesh& mesh, std::size_t count, PositionOf position_of) {
+glm::dvec3 origin_of(std::size_t count, PositionOf position_of) {
     glm::dvec3 least(INFINITY), most(-INFINITY);
     for (std::size_t i = 0; i < count; ++i) {
         const glm::dvec3 position = position_of(i);
         least = glm::min(least, position);
         most = glm::max(most, position);
     }
-    mesh.origin = origin_for(least, most);
-    check_extent(mesh.origin, least, most);
+    const glm::dvec3 origin = origin_for(least, most);
+    check_extent(origin, least, most);
+    return origin;
+}
+
+// Gives a mesh these positions, about an origin of their own.
+template <typename PositionOf>
+void place(Mesh& mesh, std::size_t count, PositionOf position_of) {
+    mesh.origin = origin_of(count, position_of);
     mesh.positions.reserve(count);
     for (std::size_t i = 0; i < count; ++i) mesh.positions.emplace_back(position_of(i) - mesh.origin);
 }

@@ -108,7 +108,13 @@ Mesh PolygonMesh::finish(Warnings& warnings) {
     Mesh mesh;
     const std::vector<std::uint32_t> sources = take_sources();
     mesh.indices = std::move(indices_);
-    place(mesh, sources.size(), [&](std::size_t i) { return positions[sources[i]]; });
+    const auto position_of = [&](std::size_t i) { return positions[sources[i]]; };
+    mesh.origin = origin_of(sources.size(), position_of);
+    const bool as_they_are = mesh.origin == glm::dvec3(0.0) && sources.size() == positions.size();
+    if (as_they_are && looks_ == Looks::of_vertices)
+        mesh.positions = positions.take_rounded();
+    else
+        place(mesh, sources.size(), position_of);
     positions = {};
     add_looks(sources, mesh, warnings);
     add_normals(sources, mesh, warnings);

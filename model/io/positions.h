@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/glm.hpp>
+#include <utility>
 #include <vector>
 
 namespace model {
@@ -22,6 +23,7 @@ public:
         rests_.resize(rounded_.size() - 1, glm::vec3(0.0f));
         rests_.push_back(rest);
     }
+    std::vector<glm::vec3> take_rounded() { return std::move(rounded_); }
     void reserve(std::size_t count) { rounded_.reserve(count); }
 
     std::size_t size() const { return rounded_.size(); }
