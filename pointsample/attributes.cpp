@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "model/srgb.h"
+#include "model/texture_sample.h"
 
 namespace pointsample {
 namespace {
@@ -20,26 +21,6 @@ using motion::SurfacePoint;
 // Linear light.
 glm::vec3 linear(const glm::u8vec4& color) {
     return {model::linear_of_srgb(color.r), model::linear_of_srgb(color.g), model::linear_of_srgb(color.b)};
-}
-
-// In [0, 1]. Between corners at the largest floats lie sums that overflow.
-float wrapped(float coordinate) {
-    const float fraction = coordinate - std::floor(coordinate);
-    return std::isfinite(fraction) ? fraction : 0.0f;
-}
-
-// Bilinear, wrapping, in linear light.
-glm::vec3 texture_at(const model::Texture& texture, const glm::vec2& uv) {
-    const glm::vec2 size(texture.width, texture.height);
-    const glm::vec2 at = glm::vec2(wrapped(uv.x), wrapped(uv.y)) * size - 0.5f;
-    const glm::vec2 corner = glm::floor(at), s = at - corner;
-    const auto texel = [&](int dx, int dy) {
-        const int x = (static_cast<int>(corner.x) + dx + texture.width) % texture.width;
-        const int y = (static_cast<int>(corner.y) + dy + texture.height) % texture.height;
-        return linear(texture.texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(texture.width) +
-                                     static_cast<std::size_t>(x)]);
-    };
-    return glm::mix(glm::mix(texel(0, 0), texel(1, 0), s.x), glm::mix(texel(0, 1), texel(1, 1), s.x), s.y);
 }
 
 // One triangle's corners and how much of each a point has.
@@ -75,10 +56,12 @@ glm::u8vec4 color_of(const Mesh& mesh, const Corners& corners) {
     glm::vec3 light = corners.blend([&](std::uint32_t i) { return linear(mesh.colors[i]); });
     const float alpha = corners.blend([&](std::uint32_t i) { return static_cast<float>(mesh.colors[i].a); });
     // Most scans have none: that spares them a look somewhere in memory for each point.
-    const std::uint8_t texture =
-        mesh.textures.empty() ? model::no_texture : mesh.material_of(corners.vertex[0]).texture;
-    if (texture != model::no_texture)
-        light *= texture_at(mesh.textures[texture], corners.blend([&](std::uint32_t i) { return mesh.uvs[i]; }));
+    if (!mesh.textures.empty()) {
+        const model::Material& material = mesh.material_of(corners.vertex[2]);
+        if (material.texture != model::no_texture)
+            light *= glm::vec3(model::texture_at(mesh.textures[material.texture], material.sampler,
+                                                 corners.blend([&](std::uint32_t i) { return mesh.uvs[i]; })));
+    }
     return {model::srgb_of_linear(light.r), model::srgb_of_linear(light.g), model::srgb_of_linear(light.b),
             static_cast<std::uint8_t>(std::min(alpha + 0.5f, 255.0f))};
 }

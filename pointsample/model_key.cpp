@@ -65,6 +65,13 @@ std::string model_key(const model::Mesh& mesh, std::span<const PosedMesh> poses,
     hasher.add(static_cast<std::uint64_t>(mesh.materials.size()));
     for (const model::Material& material : mesh.materials) {
         hasher.add(material.texture);
+        hasher.add(material.emissive_texture);
+        hasher.add(material.sampler.across);
+        hasher.add(material.sampler.down);
+        hasher.add(material.sampler.nearest);
+        hasher.add(material.emissive);
+        hasher.add(material.alpha_cutoff);
+        hasher.add(material.unlit);
         hasher.add(material.double_sided);
     }
     for (const model::Texture& texture : mesh.textures) {

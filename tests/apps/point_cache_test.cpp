@@ -170,6 +170,13 @@ TEST(ModelKey, ChangesWithEverythingThatIsRead) {
     with_mesh([](auto& m) { m.weights[5].x *= 0.5f; });
     with_mesh([](auto& m) { m.materials[0].double_sided ^= true; });
     with_mesh([](auto& m) { m.materials[0].texture = 7; });
+    with_mesh([](auto& m) { m.materials[0].emissive_texture = 7; });
+    with_mesh([](auto& m) { m.materials[0].emissive.g = 0.5f; });
+    with_mesh([](auto& m) { m.materials[0].sampler.across = model::Wrap::clamp; });
+    with_mesh([](auto& m) { m.materials[0].sampler.down = model::Wrap::clamp; });
+    with_mesh([](auto& m) { m.materials[0].sampler.nearest = true; });
+    with_mesh([](auto& m) { m.materials[0].alpha_cutoff = 0.5f; });
+    with_mesh([](auto& m) { m.materials[0].unlit = true; });
     with_mesh([](auto& m) { m.material_ids[3] = 1; });
     with_mesh([](auto& m) { m.textures.push_back({1, 1, {{1, 2, 3, 4}}}); });
     std::vector<pointsample::PosedMesh> moved = poses;

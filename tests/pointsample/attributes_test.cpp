@@ -31,7 +31,9 @@ model::Mesh patchwork(std::size_t triangles, std::uint64_t seed) {
     tests::Random random(seed);
     const auto byte = [&] { return static_cast<std::uint8_t>(random(0, 256)); };
     model::Mesh mesh;
-    mesh.materials = {{0}, {1}, {}};
+    mesh.materials.resize(3);
+    mesh.materials[0].texture = 0;
+    mesh.materials[1].texture = 1;
     for (std::uint32_t i = 0; i < 3 * triangles; ++i) {
         mesh.indices.push_back(i);
         mesh.positions.push_back(random.vector(-9, 9));
@@ -95,21 +97,29 @@ struct Shares {
     }
 };
 
-glm::dvec3 light_of_texel(const model::Texture& texture, int x, int y) {
-    const auto wrapped = [](int i, int size) { return ((i % size) + size) % size; };
-    const glm::u8vec4 texel =
-        texture
-            .texels[static_cast<std::size_t>(wrapped(y, texture.height) * texture.width + wrapped(x, texture.width))];
+// The texel that is shown where number `i` of `size` would be.
+int shown_texel(model::Wrap wrap, int i, int size) {
+    if (wrap == model::Wrap::clamp) return std::clamp(i, 0, size - 1);
+    if (wrap == model::Wrap::repeat) return ((i % size) + size) % size;
+    const int there_and_back = ((i % (2 * size)) + 2 * size) % (2 * size);
+    return there_and_back < size ? there_and_back : 2 * size - 1 - there_and_back;
+}
+
+glm::dvec3 light_of_texel(const model::Texture& texture, const model::Sampler& sampler, int x, int y) {
+    const glm::u8vec4 texel = texture.texels[static_cast<std::size_t>(
+        shown_texel(sampler.down, y, texture.height) * texture.width + shown_texel(sampler.across, x, texture.width))];
     return {light_of(texel.r), light_of(texel.g), light_of(texel.b)};
 }
 
 // Each texel weighs by how near its centre is, to one texel on both axes.
-glm::dvec3 light_of_texture(const model::Texture& texture, const glm::dvec2& uv) {
+glm::dvec3 light_of_texture(const model::Texture& texture, const model::Sampler& sampler, const glm::dvec2& uv) {
     const double x = uv.x * texture.width, y = uv.y * texture.height;
+    const int column = static_cast<int>(std::floor(x)), row = static_cast<int>(std::floor(y));
+    if (sampler.nearest) return light_of_texel(texture, sampler, column, row);
     glm::dvec3 light(0);
-    for (int i = static_cast<int>(std::floor(x)) - 1; i <= static_cast<int>(std::floor(x)) + 1; ++i)
-        for (int j = static_cast<int>(std::floor(y)) - 1; j <= static_cast<int>(std::floor(y)) + 1; ++j)
-            light += light_of_texel(texture, i, j) * std::max(0.0, 1 - std::abs(x - (i + 0.5))) *
+    for (int i = column - 1; i <= column + 1; ++i)
+        for (int j = row - 1; j <= row + 1; ++j)
+            light += light_of_texel(texture, sampler, i, j) * std::max(0.0, 1 - std::abs(x - (i + 0.5))) *
                      std::max(0.0, 1 - std::abs(y - (j + 0.5)));
     return light;
 }
@@ -141,23 +151,56 @@ TEST(Attributes, WhereNormalsCancelOutTheTrianglesOwnStands) {
     EXPECT_EQ(described(mesh, pose, {{0, 0.5f, 0}}).normals[0], glm::vec3(0, 1, 0));
 }
 
-TEST(Attributes, ColorsAreTextureTimesVertexInLightAtThePoint) {
+void expect_colors_of(const model::Mesh& mesh) {
     constexpr double code = 0.51;  // half a code, and the float's rounding
-    const model::Mesh mesh = patchwork(90, 2);
     const PointModel model = described(mesh, some_pose(mesh), points_on(mesh, 20));
     for (std::size_t i = 0; i < model.surface.size(); ++i) {
         const Shares shares(mesh, model.surface[i]);
         glm::dvec3 light = shares.mean<glm::dvec3>([&](std::uint32_t v) {
             return glm::dvec3(light_of(mesh.colors[v].r), light_of(mesh.colors[v].g), light_of(mesh.colors[v].b));
         });
-        const std::uint8_t texture = mesh.material_of(shares.vertex[0]).texture;
-        if (texture != model::no_texture)
-            light *= light_of_texture(mesh.textures[texture],
+        const model::Material& material = mesh.material_of(shares.vertex[0]);
+        if (material.texture != model::no_texture)
+            light *= light_of_texture(mesh.textures[material.texture], material.sampler,
                                       shares.mean<glm::dvec2>([&](std::uint32_t v) { return mesh.uvs[v]; }));
         for (int channel = 0; channel < 3; ++channel)
-            ASSERT_NEAR(model.colors[i][channel], code_of(light[channel]), code) << i << " texture " << int(texture);
+            ASSERT_NEAR(model.colors[i][channel], code_of(light[channel]), code)
+                << i << " texture " << int(material.texture);
         const auto alpha = shares.mean<double>([&](std::uint32_t v) { return mesh.colors[v].a; });
         ASSERT_NEAR(model.colors[i].a, alpha, code);
+    }
+}
+
+TEST(Attributes, ColorsAreTextureTimesVertexInLightAtThePoint) {
+    expect_colors_of(patchwork(90, 2));
+}
+
+TEST(Attributes, TexturesAreReadAsTheirSamplersSay) {
+    using enum model::Wrap;
+    for (const model::Wrap across : {repeat, mirror, clamp}) {
+        for (const model::Wrap down : {repeat, mirror, clamp}) {
+            for (const bool nearest : {false, true}) {
+                SCOPED_TRACE(testing::Message() << int(across) << ' ' << int(down) << ' ' << nearest);
+                model::Mesh mesh = patchwork(90, 12);
+                for (model::Material& material : mesh.materials) material.sampler = {across, down, nearest};
+                expect_colors_of(mesh);
+            }
+        }
+    }
+}
+
+TEST(Attributes, OfAPaletteThatIsReadByItsNearestTexelsNoColorIsMixed) {
+    model::Mesh mesh = patchwork(90, 13);
+    mesh.colors.assign(mesh.vertex_count(), glm::u8vec4(255));
+    for (model::Material& material : mesh.materials) material.sampler.nearest = true;
+    const PointModel model = described(mesh, some_pose(mesh), points_on(mesh, 50));
+    for (std::size_t i = 0; i < model.surface.size(); ++i) {
+        const std::uint8_t texture = mesh.material_of(mesh.indices[3 * model.surface[i].triangle]).texture;
+        if (texture == model::no_texture) continue;
+        const auto is_color = [&](const glm::u8vec4& texel) {
+            return glm::u8vec3(texel) == glm::u8vec3(model.colors[i]);
+        };
+        ASSERT_TRUE(std::ranges::any_of(mesh.textures[texture].texels, is_color)) << i;
     }
 }
 

@@ -147,7 +147,10 @@ model::Character make_harlequin(bool open) {
     model::Mesh& mesh = harlequin.mesh;
     mesh.textures = {make_texture(8, 8, {37, 53, 29}), make_texture(24, 10, {61, 17, 43})};
     if (open) std::swap(mesh.textures[0], mesh.textures[1]);  // nor do two harlequins share theirs
-    mesh.materials = {{model::no_texture, false}, {0, false}, {1, open}};
+    mesh.materials.resize(3);
+    mesh.materials[1].texture = 0;
+    mesh.materials[2].texture = 1;
+    mesh.materials[2].double_sided = open;
     add_box(mesh, {{0, 0.9f, 0}, {0.28f, 0.45f, 0.17f}, root, chest, 0, true});
     add_box(mesh, {{0.05f, 1.55f, 0.05f}, {0.14f, 0.18f, 0.16f}, chest, chest, 1});
     add_box(mesh, {{0.45f, 1.1f, 0.1f}, {0.12f, 0.35f, 0.1f}, chest, chest, 2});
