@@ -50,7 +50,7 @@ struct Mesh {
     std::size_t triangle_count() const { return indices.size() / 3; }
 
     const Material& material_of(std::size_t vertex) const { return materials[material_ids[vertex]]; }
-    // A character is sampled and drawn two-sided as a whole, if any of it is.
+    // Whether any of it is seen from both sides. Drawers take a mesh for one-sided or two-sided as a whole: sides.h.
     bool double_sided() const { return std::ranges::any_of(materials, &Material::double_sided); }
 };
 

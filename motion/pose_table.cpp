@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "model/cutout.h"
 #include "model/unorm.h"
 #include "motion/octahedral.h"
 #include "motion/schedule.h"
@@ -99,13 +100,21 @@ void strike(const model::Character& character, std::span<const int> clips, const
     skin(character.mesh, out.pose, out.positions, out.normals);
 }
 
-double area_of(const model::Mesh& mesh, const std::vector<glm::vec3>& positions) {
+// Of each triangle, how much of it there is; none if there is all of all.
+std::vector<double> surface_shares(const model::Mesh& mesh) {
+    std::vector<double> shares;
+    if (!model::has_cutouts(mesh)) return shares;
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) shares.push_back(model::surface_share(mesh, t, 256));
+    return shares;
+}
+
+double area_of(const model::Mesh& mesh, const std::vector<glm::vec3>& positions, const std::vector<double>& shares) {
     double twice = 0;
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         const glm::vec3 a = positions[mesh.indices[i]];
         const double area =
             glm::length(glm::dvec3(glm::cross(positions[mesh.indices[i + 1]] - a, positions[mesh.indices[i + 2]] - a)));
-        if (std::isfinite(area)) twice += area;
+        if (std::isfinite(area)) twice += shares.empty() ? area : area * shares[i / 3];
     }
     return 0.5 * twice;
 }
@@ -135,10 +144,11 @@ void measure(const model::Character& character, std::span<const int> clips, cons
              PoseTable& table) {
     std::vector<Bounds> boxes(static_cast<std::size_t>(table.pose_count));
     std::vector<double> areas(boxes.size());
+    const std::vector<double> shares = surface_shares(character.mesh);
     for_each_pose(table.pose_count, progress, 0.0, 0.5, [&](int index, PosedMesh& posed) {
         strike(character, clips, table.clips, index, posed);
         boxes[static_cast<std::size_t>(index)] = bounds_of(posed.positions);
-        areas[static_cast<std::size_t>(index)] = area_of(character.mesh, posed.positions);
+        areas[static_cast<std::size_t>(index)] = area_of(character.mesh, posed.positions, shares);
     });
     for (const ClipPoses& clip : table.clips) {
         Bounds box = boxes[static_cast<std::size_t>(clip.first_pose)];

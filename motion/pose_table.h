@@ -43,7 +43,7 @@ struct PoseTable {
     // Of the first clip's first pose, in which the character stands [model units].
     float rest_height = 0;  // y extent, > 0: people's heights are scaled by it; of a flat pose the box's longest side
     float floor = 0;        // lowest y, which goes on the ground
-    float area = 0;         // largest surface area over the poses [model units^2]
+    float area = 0;         // largest surface area over the poses, without cutouts [model units^2]
 
     // Of clip `clip` (into clips) at integer time `tick` of its own; wraps.
     int pose_at(int clip, std::int64_t tick) const {

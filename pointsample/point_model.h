@@ -37,7 +37,7 @@ struct PointModel {
     // By rising points (1, 2, 3, 4, 6, 8, 12 ...), the last of all points; the radius never rises. Measured
     // (coverage.h).
     std::vector<Coverage> coverage;
-    float area = 0;                  // of all triangles, hidden ones too [units^2]
+    float area = 0;                  // of all triangles, hidden ones too, without cutouts [units^2]
     std::size_t hidden_removed = 0;  // so many more the whole surface would have: those that can't be seen from outside
 
     std::size_t size() const { return positions.size(); }

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "model/cutout.h"
 #include "pointsample/attributes.h"
 #include "pointsample/candidates.h"
 #include "pointsample/coverage.h"
@@ -49,7 +50,8 @@ private:
 struct Job {
     const Surface& surface;
     const SampleOptions& options;
-    HiddenTest* hidden;  // null: everything counts as visible
+    HiddenTest* hidden;      // null: everything counts as visible
+    const model::Mesh* cut;  // null: there is a surface everywhere
     Progress& progress;
 };
 
@@ -69,6 +71,19 @@ void refuse_the_hidden(std::size_t visible, std::size_t tried) {
                                  " points visible from outside; expected at least one in a thousand");
 }
 
+void refuse_the_transparent(std::size_t there, std::size_t tried) {
+    if (1000 * there < tried)
+        throw std::runtime_error("found a surface that is transparent; expected one in a thousand of it not to be");
+}
+
+// One element a point: whether a masked material leaves it there.
+std::vector<char> are_there(const model::Mesh& mesh, std::span<const motion::SurfacePoint> points) {
+    std::vector<char> there(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i)
+        there[i] = model::has_surface(mesh, points[i].triangle, points[i].u, points[i].v);
+    return there;
+}
+
 // What is to be left of candidates for so many points: `per_point` each up to 200,000 points, which then share theirs
 // with more until each has six; and enough for a few points too.
 std::size_t candidate_count(std::size_t points, std::size_t per_point) {
@@ -78,7 +93,7 @@ std::size_t candidate_count(std::size_t points, std::size_t per_point) {
 
 struct VisibleCandidates {
     Candidates candidates;
-    std::size_t made = 0;  // hidden ones too
+    std::size_t made = 0;  // hidden ones too, but none where no surface is
     double cell_area = 0;  // that each stands for [units^2]
 
     double visible_area() const { return cell_area * static_cast<double>(candidates.count); }
@@ -93,6 +108,12 @@ VisibleCandidates make_candidates(const Job& job, std::span<const std::uint32_t>
     while (stratifier.left() > 0) {
         const std::size_t before = out.candidates.count;
         stratifier.append(batch_size, out.candidates);
+        if (job.cut != nullptr) {
+            const std::size_t appended = out.candidates.count - before;
+            out.candidates.keep(before,
+                                are_there(*job.cut, std::span(out.candidates.surface).subspan(before, appended)));
+            out.made -= appended - (out.candidates.count - before);
+        }
         if (job.hidden != nullptr) {
             const std::span<const motion::SurfacePoint> all = out.candidates.surface;
             out.candidates.keep(before, job.hidden->visible(all.subspan(before, out.candidates.count - before)));
@@ -108,9 +129,11 @@ VisibleCandidates make_visible_candidates(const Job& job, std::size_t wanted, st
     constexpr std::size_t estimate = 8192;
     const std::vector<std::uint32_t> line = order_along_line(job.surface);
     double share = 1;
-    if (job.hidden != nullptr) {
-        const std::size_t seen = make_candidates(job, line, estimate, estimate, [](double) {}).candidates.count;
-        refuse_the_hidden(seen, estimate);
+    if (job.hidden != nullptr || job.cut != nullptr) {
+        const VisibleCandidates some = make_candidates(job, line, estimate, estimate, [](double) {});
+        const std::size_t seen = some.candidates.count;
+        refuse_the_transparent(some.made, estimate);
+        refuse_the_hidden(seen, some.made);
         share = static_cast<double>(seen) / static_cast<double>(estimate);
     }
     VisibleCandidates out;
@@ -205,10 +228,19 @@ Draft uniform(const Job& job) {
     while (draft.points.size() < count) {
         const std::size_t before = draft.points.size();
         const std::size_t missing = count - before;  // some of what is tried for them will be hidden
-        const std::size_t batch =
+        std::size_t batch =
             job.hidden != nullptr ? std::clamp(2 * missing, fewest_tried, batch_size) : std::min(batch_size, missing);
         for (std::size_t i = 0; i < batch; ++i) draft.points.push_back(table.draw(job.options.seed, tried + i));
         tried += batch;
+        if (job.cut != nullptr) {
+            const std::vector<char> there = are_there(*job.cut, std::span(draft.points).subspan(before));
+            std::size_t to = before;
+            for (std::size_t i = 0; i < batch; ++i)
+                if (there[i]) draft.points[to++] = draft.points[before + i];
+            draft.points.resize(to);
+            batch = to - before;
+            if (tried >= fewest_tried) refuse_the_transparent(to, tried);
+        }
         if (job.hidden != nullptr) {
             const std::vector<char> seen = job.hidden->visible(std::span(draft.points).subspan(before));
             std::size_t to = before;
@@ -243,6 +275,18 @@ Draft make_draft(const Job& job) {
     }
 }
 
+// [units^2] In the first pose, without what masked materials leave out.
+double area_of(const Surface& surface, const model::Mesh& mesh) {
+    double area = surface.total_first_area();
+    if (!model::has_cutouts(mesh)) return area;
+    // Finely, but no longer than sampling takes.
+    constexpr std::size_t all_places = std::size_t{1} << 24, most_places = 4096;
+    const int places = static_cast<int>(std::min(all_places / surface.triangle_count() + 1, most_places));
+    for (std::size_t t = 0; t < surface.triangle_count(); ++t)
+        area -= surface.first_area(t) * (1 - model::surface_share(mesh, t, places));
+    return area;
+}
+
 }  // namespace
 
 PointModel sample(const model::Mesh& mesh, std::span<const PosedMesh> poses, const SampleOptions& options,
@@ -251,13 +295,14 @@ PointModel sample(const model::Mesh& mesh, std::span<const PosedMesh> poses, con
     Progress progress(report);
     const Surface surface(mesh.indices, poses);
     std::optional<HiddenTest> hidden;
-    if (options.visible_only) hidden.emplace(surface, mesh.double_sided());
-    Draft draft = make_draft({surface, options, hidden ? &*hidden : nullptr, progress});
+    if (options.visible_only) hidden.emplace(surface, mesh);
+    Draft draft = make_draft(
+        {surface, options, hidden ? &*hidden : nullptr, model::has_cutouts(mesh) ? &mesh : nullptr, progress});
     hidden.reset();  // frees the ray-tracing scenes
 
     PointModel model;
     model.origin = mesh.origin;
-    model.area = static_cast<float>(surface.total_first_area());
+    model.area = static_cast<float>(area_of(surface, mesh));
     model.hidden_removed = draft.hidden_removed;
     model.surface = std::move(draft.points);
     model.spacing = std::move(draft.spacing);

@@ -10,6 +10,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "motion/pose.h"
 #include "pointsample/embree.h"
@@ -106,6 +107,9 @@ struct Visibility::Scene {
     RTCScene scene = nullptr;
     glm::vec3 center{0.0f};
     float scale = 1.0f;
+    InTheWay in_the_way;
+    std::vector<std::uint32_t> triangle_of;  // of Embree's, its number among all
+    std::vector<glm::vec3> normal_of;        // its own, of any length; both only if in_the_way
 
     Scene() : device(rtcNewDevice(nullptr)) {
         if (device == nullptr)
@@ -123,6 +127,10 @@ struct Visibility::Scene {
 
     glm::vec3 scaled(const glm::vec3& point) const { return (point - center) * scale; }
     bool sees(const glm::vec3& from, const glm::vec3& normal, Run& run) const;
+    static void let_through(const RTCFilterFunctionNArguments* query);
+
+    template <typename IsTwoSided>
+    std::vector<char> look(std::span<const Place> places, IsTwoSided is_two_sided) const;
 
     void* new_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::size_t stride,
                      std::size_t count) {
@@ -134,8 +142,23 @@ struct Visibility::Scene {
     }
 };
 
-Visibility::Visibility(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices)
+void Visibility::Scene::let_through(const RTCFilterFunctionNArguments* query) {
+    const Scene& scene = *static_cast<const Scene*>(query->geometryUserPtr);
+    for (unsigned i = 0; i < query->N; ++i) {
+        if (query->valid[i] == 0) continue;
+        const std::uint32_t number = RTCHitN_primID(query->hit, query->N, i);
+        const glm::vec3 out(RTCRayN_dir_x(query->ray, query->N, i), RTCRayN_dir_y(query->ray, query->N, i),
+                            RTCRayN_dir_z(query->ray, query->N, i));
+        if (!scene.in_the_way(scene.triangle_of[number], RTCHitN_u(query->hit, query->N, i),
+                              RTCHitN_v(query->hit, query->N, i), glm::dot(scene.normal_of[number], out) < 0.0f))
+            query->valid[i] = 0;
+    }
+}
+
+Visibility::Visibility(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices,
+                       InTheWay in_the_way)
     : scene_(std::make_unique<Scene>()) {
+    scene_->in_the_way = std::move(in_the_way);
     std::vector<std::uint32_t> corners;
     corners.reserve(indices.size());
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
@@ -143,8 +166,9 @@ Visibility::Visibility(std::span<const glm::vec3> positions, std::span<const std
             assert(indices[at] < positions.size());
             return is_finite(positions[indices[at]]);
         };
-        if (finite(i) && finite(i + 1) && finite(i + 2))
-            corners.insert(corners.end(), {indices[i], indices[i + 1], indices[i + 2]});
+        if (!finite(i) || !finite(i + 1) || !finite(i + 2)) continue;
+        corners.insert(corners.end(), {indices[i], indices[i + 1], indices[i + 2]});
+        if (scene_->in_the_way) scene_->triangle_of.push_back(static_cast<std::uint32_t>(i / 3));
     }
     if (corners.empty()) return;  // nothing is in anyone's way
 
@@ -160,6 +184,14 @@ Visibility::Visibility(std::span<const glm::vec3> positions, std::span<const std
     auto* triangles = static_cast<std::uint32_t*>(scene_->new_buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3,
                                                                      3 * sizeof(std::uint32_t), corners.size() / 3));
     std::copy(corners.begin(), corners.end(), triangles);
+    if (scene_->in_the_way) {
+        for (std::size_t i = 0; i < corners.size(); i += 3) {
+            const glm::vec3 a = vertices[corners[i]];
+            scene_->normal_of.push_back(glm::cross(vertices[corners[i + 1]] - a, vertices[corners[i + 2]] - a));
+        }
+        rtcSetGeometryUserData(geometry, scene_.get());
+        rtcSetGeometryOccludedFilterFunction(geometry, Scene::let_through);
+    }
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene_->scene, geometry);
     rtcReleaseGeometry(geometry);
@@ -193,20 +225,29 @@ bool Visibility::Scene::sees(const glm::vec3& from, const glm::vec3& normal, Run
     return false;
 }
 
-std::vector<char> Visibility::look(std::span<const Place> places, bool two_sided) const {
+template <typename IsTwoSided>
+std::vector<char> Visibility::Scene::look(std::span<const Place> places, IsTwoSided is_two_sided) const {
     std::vector<char> seen(places.size());
     const std::size_t runs = (places.size() + run_length - 1) / run_length;
     tbb::parallel_for(std::size_t{0}, runs, [&](std::size_t number) {
         Run run;
         const std::size_t first = number * run_length, last = std::min(first + run_length, places.size());
         for (std::size_t i = first; i < last; ++i) {
-            const glm::vec3 at = scene_->scaled(places[i].position), normal = places[i].normal;
-            seen[i] = scene_->sees(at + offset * normal, normal, run) ||
-                      (two_sided && scene_->sees(at - offset * normal, -normal, run));
+            const glm::vec3 at = scaled(places[i].position), normal = places[i].normal;
+            seen[i] = sees(at + offset * normal, normal, run) ||
+                      (is_two_sided(i) && sees(at - offset * normal, -normal, run));
             run.after_hidden = seen[i] == 0;
         }
     });
     return seen;
+}
+
+std::vector<char> Visibility::look(std::span<const Place> places, bool two_sided) const {
+    return scene_->look(places, [&](std::size_t) { return two_sided; });
+}
+
+std::vector<char> Visibility::look(std::span<const Place> places, std::span<const char> two_sided) const {
+    return scene_->look(places, [&](std::size_t i) { return two_sided[i] != 0; });
 }
 
 }  // namespace pointsample
