@@ -6,6 +6,7 @@
 #include "apps/progress.h"
 #include "apps/warnings.h"
 #include "model/io/mesh_file.h"
+#include "model/sides.h"
 #include "pointsample/model_key.h"
 #include "pointsample/posed_mesh.h"
 #include "pointsample/sample.h"
@@ -43,6 +44,7 @@ pointsample::PointModel sample_points(const model::Character& character, const s
 
 void add_character(Stage& stage, model::Character character, std::uint64_t seed, std::size_t byte_budget,
                    const PointCache& cache, const figures::Way& way) {
+    model::split_sides(character.mesh);
     scene::Casting casting = scene::cast(character);
     stage.points.push_back(sample_points(character, casting.clips, seed, cache, way));
     throw_if_interrupted();

@@ -48,6 +48,7 @@ CONSTANT attribute_palette = 6;    // slot_vectors of uint 32 x 4: sRGB of slots
 // Behind it: of vertices uv, half x 2; of points slot_vectors of unorm 8 x 4, shares of slots 1 to slot_count.
 CONSTANT attribute_uv = attribute_palette + slot_vectors;
 CONSTANT attribute_shares = attribute_palette + slot_vectors;
+CONSTANT attribute_alpha = attribute_uv + 1;  // unorm 8, of vertices whose materials need it
 
 // Vertex attributes of very far people, who stay where they are.
 CONSTANT attribute_far_center = 0;     // the middle, from the block's origin [m]; side of a square as large as the
@@ -72,6 +73,12 @@ CONSTANT attribute_static_open = 3;
 
 CONSTANT look_slot_bits = 3;
 CONSTANT no_layer = 31;
+// Where materials differ in more than their texture, looks hold the number of one of these instead of a layer.
+CONSTANT texturing_count = 32;
+CONSTANT uniform_texturings = 1;  // as shaders/texturing.glsl says; w: alpha below which there is nothing
+CONSTANT wrap_repeat = 0;         // model::Wrap
+CONSTANT wrap_mirror = 1;
+CONSTANT wrap_clamp = 2;
 CONSTANT texture_unit_layers = 0;
 CONSTANT texture_unit_looks = 1;
 

@@ -5,6 +5,10 @@ layout(location = attribute_uv) in vec2 uv;
 out vec2 texture_uv;
 flat out int texture_layer;
 #endif
+#ifdef MATERIALS
+layout(location = attribute_alpha) in float vertex_alpha;
+out float surface_alpha;
+#endif
 out vec3 albedo;
 out vec3 light;
 
@@ -24,5 +28,8 @@ void main() {
 #ifdef TEXTURED
     texture_uv = uv;
     texture_layer = int(look >> look_slot_bits);
+#endif
+#ifdef MATERIALS
+    surface_alpha = vertex_alpha;
 #endif
 }

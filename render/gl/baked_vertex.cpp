@@ -15,6 +15,7 @@ static_assert(offsetof(motion::PosedVertex, normal_u) == 6);
 
 constexpr GLuint vertex_binding = 0;
 constexpr GLuint instance_binding = 1;
+constexpr GLuint alpha_binding = 2;
 
 }  // namespace
 
@@ -53,6 +54,11 @@ VertexArray make_person_array(const Buffer& vertices, const Buffer& instances, E
             add_float(a, attribute_shares + i, 4, GL_UNSIGNED_BYTE, true,
                       offsetof(BakedVertex, extra) + i * sizeof(glm::u8vec4), vertex_binding);
     return array;
+}
+
+void add_alphas(const VertexArray& array, const Buffer& alphas) {
+    glVertexArrayVertexBuffer(array.name(), alpha_binding, alphas.name(), 0, 1);
+    add_float(array.name(), attribute_alpha, 1, GL_UNSIGNED_BYTE, true, 0, alpha_binding);
 }
 
 }  // namespace render::gl

@@ -1,5 +1,8 @@
 // figures/triangles.h by indexed triangles.
+#include <algorithm>
 #include <glm/gtc/packing.hpp>
+#include <iterator>
+#include <span>
 
 #include "render/gl/baked_vertex.h"
 #include "render/gl/figure_drawer.h"
@@ -19,6 +22,9 @@ struct Objects {
     VertexArray array;
     TextureObject layers;  // none if the character has no textures
     GLuint vertex_count = 0;
+    Buffer alphas;  // none without texturings
+    // What materials differ in, if it is more than their texture (shaders/texturing.glsl).
+    std::vector<glm::vec4> texturings;
     bool double_sided = false, textured = false;
 };
 
@@ -26,34 +32,91 @@ std::uint8_t look_of(model::Slot slot, std::uint8_t layer) {
     return static_cast<std::uint8_t>(static_cast<unsigned>(slot) | (static_cast<unsigned>(layer) << look_slot_bits));
 }
 
-std::vector<Record> records_of(const model::Mesh& mesh) {
+std::uint8_t layer_of(const model::Material& material) {
+    return material.texture == model::no_texture ? no_layer : material.texture;
+}
+
+// What draws a texture as most characters have it won't do.
+bool needs_texturing(const model::Material& material) {
+    return material.alpha_cutoff > 0 || (material.texture != model::no_texture && material.sampler != model::Sampler{});
+}
+
+glm::vec4 texturing_of(const model::Material& material) {
+    static_assert(wrap_repeat == static_cast<int>(model::Wrap::repeat) &&
+                  wrap_mirror == static_cast<int>(model::Wrap::mirror) &&
+                  wrap_clamp == static_cast<int>(model::Wrap::clamp));
+    const model::Sampler sampler = material.texture == model::no_texture ? model::Sampler{} : material.sampler;
+    return {layer_of(material), static_cast<int>(sampler.across) + 4 * static_cast<int>(sampler.down),
+            sampler.nearest ? 1 : 0, material.alpha_cutoff};
+}
+
+// For each material the number of its texturing, which is added where it is new. Beyond as many as there may be, the
+// first of the same texture serves.
+std::vector<std::uint8_t> number_texturings(const model::Mesh& mesh, std::vector<glm::vec4>& texturings) {
+    std::vector<std::uint8_t> numbers;
+    for (const model::Material& material : mesh.materials) {
+        const glm::vec4 wanted = texturing_of(material);
+        auto place = std::ranges::find(texturings, wanted);
+        if (place == texturings.end() && texturings.size() < texturing_count)
+            place = texturings.insert(place, wanted);
+        else if (place == texturings.end())
+            place = std::ranges::find(texturings, wanted.x, [](const glm::vec4& known) { return known.x; });
+        numbers.push_back(place == texturings.end() ? 0 : static_cast<std::uint8_t>(place - texturings.begin()));
+    }
+    return numbers;
+}
+
+// `layers`: of each material, what goes into a look.
+std::vector<Record> records_of(const model::Mesh& mesh, const std::vector<std::uint8_t>& layers) {
     std::vector<Record> records;
     for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
         const glm::u8vec4 color = mesh.colors[v];
-        const std::uint8_t texture = mesh.material_of(v).texture;
-        const std::uint8_t layer = texture == model::no_texture ? no_layer : texture;
+        const std::uint8_t layer = layers[mesh.material_ids[v]];
         records.push_back(
             {v, {{}, color.r, color.g, color.b, look_of(mesh.slots[v], layer), {glm::packHalf2x16(mesh.uvs[v])}}});
     }
     return records;
 }
 
+Buffer upload_alphas(const model::Mesh& mesh, std::size_t poses) {
+    std::vector<std::uint8_t> alphas;
+    alphas.reserve(poses * mesh.vertex_count());
+    for (std::size_t pose = 0; pose < poses; ++pose)
+        for (const glm::u8vec4& color : mesh.colors) alphas.push_back(color.a);
+    return upload<std::uint8_t>(alphas);
+}
+
 class TriangleDrawer final : public FigureDrawer {
 public:
     TriangleDrawer()
         : program_(build_program("person_triangles.vert", "person_triangles.frag")),
-          textured_program_(build_program("person_triangles.vert", "person_triangles.frag", {"TEXTURED"})) {}
+          textured_program_(build_program("person_triangles.vert", "person_triangles.frag", {"TEXTURED"})),
+          texturing_program_(
+              build_program("person_triangles.vert", "person_triangles.frag", {"TEXTURED", "MATERIALS"})) {}
 
     void add(const figures::Figure& figure, const Buffer& instances) override {
         const model::Mesh& mesh = *figure.mesh;
         Objects& objects = objects_.emplace_back();
-        objects.textured = !mesh.textures.empty();
+        const bool has_texturings = std::ranges::any_of(mesh.materials, needs_texturing);
+        objects.textured = !mesh.textures.empty() || has_texturings;
         objects.double_sided = mesh.double_sided();
-        if (objects.textured) objects.layers = make_texture_array(mesh.textures);
-        objects.vertices = upload_poses(figure.poses->vertices, figure.poses->vertex_count, records_of(mesh));
+        const model::Texture white{1, 1, {glm::u8vec4(255)}};  // for cutouts by vertices alone
+        if (objects.textured)
+            objects.layers =
+                make_texture_array(mesh.textures.empty() ? std::span(&white, 1) : std::span(mesh.textures));
+        std::vector<std::uint8_t> layers;
+        if (has_texturings)
+            layers = number_texturings(mesh, objects.texturings);
+        else
+            std::ranges::transform(mesh.materials, std::back_inserter(layers), layer_of);
+        objects.vertices = upload_poses(figure.poses->vertices, figure.poses->vertex_count, records_of(mesh, layers));
         objects.indices = upload<std::uint32_t>(mesh.indices);
         objects.vertex_count = static_cast<GLuint>(mesh.vertex_count());
         objects.array = make_person_array(objects.vertices, instances, objects.textured ? Extra::uv : Extra::nothing);
+        if (has_texturings) {
+            objects.alphas = upload_alphas(mesh, static_cast<std::size_t>(figure.poses->pose_count));
+            add_alphas(objects.array, objects.alphas);
+        }
         glVertexArrayElementBuffer(objects.array.name(), objects.indices.name());
     }
 
@@ -66,14 +129,22 @@ public:
         const Objects& objects = objects_[character];
         if (objects.double_sided) glDisable(GL_CULL_FACE);
         if (objects.textured) glBindTextureUnit(texture_unit_layers, objects.layers.name());
-        glUseProgram(objects.textured ? textured_program_.name() : program_.name());
+        glUseProgram(program_of(objects).name());
+        if (!objects.texturings.empty())
+            glUniform4fv(uniform_texturings, static_cast<GLsizei>(objects.texturings.size()),
+                         &objects.texturings.front().x);
         glBindVertexArray(objects.array.name());
         glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset), count, 0);
         glEnable(GL_CULL_FACE);
     }
 
 private:
-    Program program_, textured_program_;
+    const Program& program_of(const Objects& objects) const {
+        if (!objects.texturings.empty()) return texturing_program_;
+        return objects.textured ? textured_program_ : program_;
+    }
+
+    Program program_, textured_program_, texturing_program_;
     std::vector<Objects> objects_;
 };
 

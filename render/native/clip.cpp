@@ -54,6 +54,7 @@ PlacedCorner cut(const Plane& plane, const PlacedCorner& a, double a_distance, c
     }
     c.look.u = mixed(a.look.u, b.look.u);
     c.look.v = mixed(a.look.v, b.look.v);
+    c.look.alpha = mixed(a.look.alpha, b.look.alpha);
     return c;
 }
 
@@ -93,11 +94,11 @@ void swap_sides(WideTriangle& t) {
 }  // namespace
 
 void append_clipped(const std::array<PlacedCorner, 3>& triangle, double center_x, double center_y, bool double_sided,
-                    std::uint8_t layer, std::vector<WideTriangle>& out) {
+                    const Texturing& texturing, std::vector<WideTriangle>& out) {
     const Polygon polygon = clipped(triangle);
     for (std::size_t i = 2; i < polygon.count; ++i) {
         WideTriangle t;
-        t.layer = layer;
+        t.texturing = texturing;
         const std::size_t numbers[] = {0, i - 1, i};
         for (int k = 0; k < 3; ++k) {
             const PlacedCorner& corner = polygon.corners[numbers[k]];

@@ -19,6 +19,6 @@ struct PlacedCorner {
 // as clockwise triangles. Triangles that share an edge share what is left of it. `center_x`, `center_y`: of the
 // picture [grid steps].
 void append_clipped(const std::array<PlacedCorner, 3>& triangle, double center_x, double center_y, bool double_sided,
-                    std::uint8_t layer, std::vector<WideTriangle>& out);
+                    const Texturing& texturing, std::vector<WideTriangle>& out);
 
 }  // namespace render::native

@@ -82,12 +82,15 @@ void store(VFloat red, VFloat green, VFloat blue, FloatMask mask, const Block& b
     blend(hn::And(rounded(blue), low), wide_mask, w, block.blue + lane);
 }
 
-// Keeps of `inside` what is nearer than what is there, and its depth. False: nothing is.
-bool nearer(VFloat depth, FloatMask& inside, const Block& block, int lane) {
+// Keeps of `inside` what is nearer than what is there, and its depth. False: nothing is. `exists`: called only if
+// something is nearer; keeps of that what there is.
+template <typename Exists>
+bool nearer(VFloat depth, FloatMask& inside, const Block& block, int lane, Exists exists) {
     const Floats f;
     const auto there = hn::Load(f, block.depth + lane);
     inside = hn::And(inside, hn::Gt(depth, there));
     if (hn::AllFalse(f, inside)) return false;
+    if (!exists(inside)) return false;
     hn::Store(hn::IfThenElse(inside, depth, there), f, block.depth + lane);
     return true;
 }
@@ -109,6 +112,8 @@ void shade(const PlainShading& s, VFloat edge1, VFloat edge2, FloatMask mask, co
 struct Texels {
     const std::int32_t* data = nullptr;
     int side = 1;  // [texels]
+    model::Sampler sampler;
+    bool is_usual = true;  // the sampler
 };
 
 // Corners that differ in everything, in perspective.
@@ -116,46 +121,131 @@ struct RichShading {
     Corner at, to_second, to_third;
     float depth_second, depth_third;
     Texels texels;
+    float alpha_cutoff;
 };
 
 struct Color {
     VFloat red, green, blue;
 };
 
-// Bilinear, in the texels' own coding, then made linear.
-Color texel(const Texels& texels, VFloat u, VFloat v) {
+// How far between two texels, in steps of 1 / 256.
+constexpr int texel_steps = 256;
+
+// The two texels that a place lies between along one axis, and how far from the first.
+struct TexelPair {
+    VInt first, second, from_first;
+};
+
+// Of a texture that repeats, between its texels.
+TexelPair usual_pair(VFloat t, int side) {
     const Floats f;
     const Ints i;
-    constexpr int steps = 256;  // between two texels
-    const auto fixed = [&](VFloat t) {
-        const auto in_tile = hn::Sub(t, hn::Floor(t));
-        return hn::ConvertTo(i, hn::Floor(hn::Add(hn::Mul(in_tile, hn::Set(f, static_cast<float>(steps * texels.side))),
-                                                  hn::Set(f, 0.5f - steps / 2))));
-    };
-    const auto x = fixed(u), y = fixed(v);
-    const auto wrap = hn::Set(i, texels.side - 1);
-    const auto one = hn::Set(i, 1);
-    const auto x0 = hn::And(hn::ShiftRight<8>(x), wrap), x1 = hn::And(hn::Add(x0, one), wrap);
-    const auto y0 = hn::And(hn::ShiftRight<8>(y), wrap), y1 = hn::And(hn::Add(y0, one), wrap);
-    const auto side = hn::Set(i, texels.side);
-    const auto row0 = hn::Mul(y0, side), row1 = hn::Mul(y1, side);
-    const auto a = hn::GatherIndex(i, texels.data, hn::Add(row0, x0));
-    const auto b = hn::GatherIndex(i, texels.data, hn::Add(row0, x1));
-    const auto c = hn::GatherIndex(i, texels.data, hn::Add(row1, x0));
-    const auto d = hn::GatherIndex(i, texels.data, hn::Add(row1, x1));
-    const auto low = hn::Set(i, 255);
-    const auto right = hn::And(x, low), lower = hn::And(y, low);
-    const auto left = hn::Sub(hn::Set(i, steps), right), upper = hn::Sub(hn::Set(i, steps), lower);
-    const auto channel = [&](auto shifted) {
-        const auto above = hn::Add(hn::Mul(shifted(a), left), hn::Mul(shifted(b), right));
-        const auto below = hn::Add(hn::Mul(shifted(c), left), hn::Mul(shifted(d), right));
+    const auto in_tile = hn::Sub(t, hn::Floor(t));
+    const auto place =
+        hn::ConvertTo(i, hn::Floor(hn::Add(hn::Mul(in_tile, hn::Set(f, static_cast<float>(texel_steps * side))),
+                                           hn::Set(f, 0.5f - texel_steps / 2))));
+    const auto wrap = hn::Set(i, side - 1);
+    const auto first = hn::And(hn::ShiftRight<8>(place), wrap);
+    return {first, hn::And(hn::Add(first, hn::Set(i, 1)), wrap), hn::And(place, hn::Set(i, texel_steps - 1))};
+}
+
+// Of any other (model/texture_sample.h).
+TexelPair unusual_pair(VFloat t, int side, model::Wrap wrap, bool nearest) {
+    const Floats f;
+    const Ints i;
+    if (!nearest && wrap == model::Wrap::repeat) return usual_pair(t, side);
+    const auto one = hn::Set(f, 1.0f), two = hn::Set(f, 2.0f);
+    if (wrap == model::Wrap::repeat) {
+        t = hn::Sub(t, hn::Floor(t));
+    } else if (wrap == model::Wrap::mirror) {
+        t = hn::Sub(t, hn::Mul(two, hn::Floor(hn::Mul(t, hn::Set(f, 0.5f)))));
+        t = hn::Min(t, hn::Sub(two, t));
+    } else {
+        t = hn::Min(hn::Max(t, hn::Zero(f)), one);
+    }
+    const auto within = [&](VInt texel) { return hn::Min(hn::Max(texel, hn::Zero(i)), hn::Set(i, side - 1)); };
+    if (nearest) {
+        const auto texel = within(hn::ConvertTo(i, hn::Floor(hn::Mul(t, hn::Set(f, static_cast<float>(side))))));
+        return {texel, texel, hn::Zero(i)};
+    }
+    const auto place =
+        hn::ConvertTo(i, hn::Floor(hn::Add(hn::Mul(t, hn::Set(f, static_cast<float>(texel_steps * side))),
+                                           hn::Set(f, 0.5f - texel_steps / 2))));
+    const auto first = hn::ShiftRight<8>(place);
+    return {within(first), within(hn::Add(first, hn::Set(i, 1))), hn::And(place, hn::Set(i, texel_steps - 1))};
+}
+
+// The four texels around a place, and how much of each is shown there, `texel_steps` squared together.
+struct FourTexels {
+    VInt a, b, c, d, left, right, upper, lower;
+
+    // Of a byte of theirs.
+    template <typename Byte>
+    VFloat mean(Byte byte) const {
+        const auto above = hn::Add(hn::Mul(byte(a), left), hn::Mul(byte(b), right));
+        const auto below = hn::Add(hn::Mul(byte(c), left), hn::Mul(byte(d), right));
         const auto sum = hn::Add(hn::Mul(above, upper), hn::Mul(below, lower));
-        const auto srgb = hn::Mul(hn::ConvertTo(f, sum), hn::Set(f, 1.0f / (255.0f * steps * steps)));
+        const Floats f;
+        return hn::Mul(hn::ConvertTo(f, sum), hn::Set(f, 1.0f / (255.0f * texel_steps * texel_steps)));
+    }
+};
+
+FourTexels four_texels(const Texels& texels, VFloat u, VFloat v) {
+    const Ints i;
+    const model::Sampler& by = texels.sampler;
+    const TexelPair x =
+        texels.is_usual ? usual_pair(u, texels.side) : unusual_pair(u, texels.side, by.across, by.nearest);
+    const TexelPair y =
+        texels.is_usual ? usual_pair(v, texels.side) : unusual_pair(v, texels.side, by.down, by.nearest);
+    const auto side = hn::Set(i, texels.side), steps = hn::Set(i, texel_steps);
+    const auto row0 = hn::Mul(y.first, side), row1 = hn::Mul(y.second, side);
+    return {hn::GatherIndex(i, texels.data, hn::Add(row0, x.first)),
+            hn::GatherIndex(i, texels.data, hn::Add(row0, x.second)),
+            hn::GatherIndex(i, texels.data, hn::Add(row1, x.first)),
+            hn::GatherIndex(i, texels.data, hn::Add(row1, x.second)),
+            hn::Sub(steps, x.from_first),
+            x.from_first,
+            hn::Sub(steps, y.from_first),
+            y.from_first};
+}
+
+// Bilinear, in the texels' own coding, then made linear.
+Color texel(const Texels& texels, VFloat u, VFloat v) {
+    const Ints i;
+    const FourTexels four = four_texels(texels, u, v);
+    const auto low = hn::Set(i, 255);
+    const auto channel = [&](auto byte) {
+        const auto srgb = four.mean(byte);
         return hn::Mul(srgb, srgb);
     };
     return {channel([&](VInt t) { return hn::And(t, low); }),
             channel([&](VInt t) { return hn::And(hn::ShiftRight<8>(t), low); }),
             channel([&](VInt t) { return hn::And(hn::ShiftRight<16>(t), low); })};
+}
+
+// Of screen shares, what perspective makes of them.
+void put_in_perspective(const RichShading& s, VFloat& second, VFloat& third) {
+    const Floats f;
+    const auto depth = between(s.at.depth, s.to_second.depth, s.to_third.depth, second, third);
+    second = hn::Div(hn::Mul(second, hn::Set(f, s.depth_second)), depth);
+    third = hn::Div(hn::Mul(third, hn::Set(f, s.depth_third)), depth);
+}
+
+// Keeps of `mask` where a cutout leaves a surface. False: nowhere.
+bool keep_surface(const RichShading& s, VFloat second, VFloat third, FloatMask& mask) {
+    const Floats f;
+    second = hn::IfThenElseZero(mask, second);
+    third = hn::IfThenElseZero(mask, third);
+    put_in_perspective(s, second, third);
+    auto alpha = between(s.at.alpha, s.to_second.alpha, s.to_third.alpha, second, third);
+    if (s.texels.data != nullptr) {
+        const FourTexels four = four_texels(s.texels, between(s.at.u, s.to_second.u, s.to_third.u, second, third),
+                                            between(s.at.v, s.to_second.v, s.to_third.v, second, third));
+        alpha = hn::Mul(alpha, four.mean([](VInt t) { return hn::And(hn::ShiftRight<24>(t), hn::Set(Ints(), 255)); }));
+    }
+    constexpr float rounding = 1e-5f;  // of sums of bytes
+    mask = hn::And(mask, hn::Ge(alpha, hn::Set(f, s.alpha_cutoff - rounding)));
+    return !hn::AllFalse(f, mask);
 }
 
 // `second`, `third`: how much of those corners each sample is.
@@ -164,9 +254,7 @@ void shade(const RichShading& s, VFloat second, VFloat third, FloatMask mask, co
     // Outside of the triangle nothing is promised of the numbers below.
     second = hn::IfThenElseZero(mask, second);
     third = hn::IfThenElseZero(mask, third);
-    const auto depth = between(s.at.depth, s.to_second.depth, s.to_third.depth, second, third);
-    second = hn::Div(hn::Mul(second, hn::Set(f, s.depth_second)), depth);
-    third = hn::Div(hn::Mul(third, hn::Set(f, s.depth_third)), depth);
+    put_in_perspective(s, second, third);
     const auto color = [&](int c) {
         const auto light = between(s.at.light[c], s.to_second.light[c], s.to_third.light[c], second, third);
         const auto albedo = between(s.at.albedo[c], s.to_second.albedo[c], s.to_third.albedo[c], second, third);
@@ -191,6 +279,7 @@ Corner difference(const Corner& a, const Corner& b) {
     d.depth = a.depth - b.depth;
     d.u = a.u - b.u;
     d.v = a.v - b.v;
+    d.alpha = a.alpha - b.alpha;
     return d;
 }
 
@@ -219,17 +308,19 @@ int mipmap(const TextureLayers& textures, const Corner (&corners)[3], const Slop
     return squared < 1e12f ? std::min(std::ilogb(2 * squared) / 2, most) : most;
 }
 
-RichShading rich_shading(const TextureLayers& textures, const Corner (&corners)[3], std::uint8_t layer,
+RichShading rich_shading(const TextureLayers& textures, const Corner (&corners)[3], const Texturing& texturing,
                          const Slopes& slopes) {
     RichShading shading{corners[0],
                         difference(corners[1], corners[0]),
                         difference(corners[2], corners[0]),
                         corners[1].depth,
                         corners[2].depth,
-                        {}};
-    if (layer == untextured) return shading;
+                        {},
+                        texturing.alpha_cutoff};
+    if (texturing.layer == untextured) return shading;
     const int level = mipmap(textures, corners, slopes);
-    shading.texels = {reinterpret_cast<const std::int32_t*>(textures.texels(layer, level)), textures.side(level)};
+    shading.texels = {reinterpret_cast<const std::int32_t*>(textures.texels(texturing.layer, level)),
+                      textures.side(level), texturing.sampler, texturing.sampler == model::Sampler{}};
     return shading;
 }
 
@@ -484,15 +575,16 @@ RichShading rich_shading(const Dress& dress, const FacingCorners& corners, const
                   vertex.depth,
                   {tint.red, tint.green, tint.blue},
                   uv.x,
-                  uv.y};
+                  uv.y,
+                  dress.mesh.alphas.empty() ? 1.0f : dress.mesh.alphas[corners.numbers[k]]};
     }
-    return rich_shading(dress.mesh.textures, all, corners.face->layer, slopes);
+    return rich_shading(dress.mesh.textures, all, dress.mesh.texturings[corners.face->texturing], slopes);
 }
 
 HWY_NOINLINE void find_shading(const Dress& dress, std::uint32_t number, bool is_flat, const EdgeGroup& edges, int t,
                                Shading& shading) {
     const FacingCorners corners = corners_of(dress.mesh, number);
-    if (corners.face->layer == untextured && is_flat) {
+    if (corners.face->texturing == 0 && is_flat) {
         find_flat_shading(dress, corners, edges, t, shading);
         return;
     }
@@ -503,10 +595,24 @@ HWY_NOINLINE void find_shading(const Dress& dress, std::uint32_t number, bool is
     shading.kind = Shading::Kind::rich;
 }
 
+bool is_cut(const PersonMesh& mesh, std::uint32_t number) {
+    return mesh.texturings[mesh.faces[number & ~from_behind].texturing].alpha_cutoff > 0;
+}
+
+// How much of corner k = 1, 2 samples are.
+VFloat share_of(int k, VFloat edge, const EdgeGroup& edges, int t) {
+    const Floats f;
+    return hn::Add(hn::Mul(edge, hn::Set(f, edges.scale[t])), hn::Set(f, edges.rest[k - 1][t]));
+}
+
+// Of a triangle with cutouts, whose shading is rich. `edge1`, `edge2`: at the samples.
+bool keep_surface(const Shading& shading, const EdgeGroup& edges, int t, VFloat edge1, VFloat edge2, FloatMask& mask) {
+    return keep_surface(shading.rich, share_of(1, edge1, edges, t), share_of(2, edge2, edges, t), mask);
+}
+
 // `edge1`, `edge2`: at the samples.
 void shade(const Shading& shading, const EdgeGroup& edges, int t, VFloat edge1, VFloat edge2, FloatMask mask,
            const Block& block, int lane) {
-    const Floats f;
     if (shading.kind == Shading::Kind::plain) {
         shade(shading.plain, edge1, edge2, mask, block, lane);
     } else if (shading.kind == Shading::Kind::product) {
@@ -516,10 +622,7 @@ void shade(const Shading& shading, const EdgeGroup& edges, int t, VFloat edge1, 
         const auto color = [&](int i) { return hn::Mul(value(shading.plain, i), value(shading.albedo, i)); };
         store(color(0), color(1), color(2), mask, block, lane);
     } else {
-        const auto share = [&](VFloat from, float rest) {
-            return hn::Add(hn::Mul(from, hn::Set(f, edges.scale[t])), hn::Set(f, rest));
-        };
-        shade(shading.rich, share(edge1, edges.rest[0][t]), share(edge2, edges.rest[1][t]), mask, block, lane);
+        shade(shading.rich, share_of(1, edge1, edges, t), share_of(2, edge2, edges, t), mask, block, lane);
     }
 }
 
@@ -574,7 +677,7 @@ std::uint32_t open_blocks(const float* farthest, float nearest) {
 
 // Block `b` of a square; `start`: the edges at the square's first sample. `find` fills `shading` in.
 template <typename Find>
-void fill_block(const EdgeGroup& edges, int t, const std::int32_t (&start)[3], int b, const Block& block,
+void fill_block(const EdgeGroup& edges, int t, const std::int32_t (&start)[3], int b, const Block& block, bool is_cut,
                 Shading& shading, Find find) {
     const Floats f;
     const Ints i;
@@ -585,7 +688,12 @@ void fill_block(const EdgeGroup& edges, int t, const std::int32_t (&start)[3], i
         FloatMask mask = hn::RebindMask(f, hn::Gt(hn::Or(hn::Or(edge(0), edge1), edge2), hn::Set(i, -1)));
         const auto exact1 = hn::ConvertTo(f, edge1), exact2 = hn::ConvertTo(f, edge2);
         const auto depth = between(edges.depth[t], edges.depth_second[t], edges.depth_third[t], exact1, exact2);
-        if (!nearer(depth, mask, block, lane)) continue;
+        const auto exists = [&](FloatMask& there) {
+            if (!is_cut) return true;
+            if (shading.kind == Shading::Kind::unknown) find();
+            return keep_surface(shading, edges, t, exact1, exact2, there);
+        };
+        if (!nearer(depth, mask, block, lane, exists)) continue;
         changed = true;
         if (shading.kind == Shading::Kind::unknown) find();
         shade(shading, edges, t, exact1, exact2, mask, block, lane);
@@ -600,7 +708,7 @@ struct Filling {
     int t;
     std::uint32_t face;
     int column, row;
-    bool is_flat;
+    bool is_flat, is_cut;
 };
 
 // Blocks `some` of the square that begins x to the right and y below of the first; `start`: the edges there.
@@ -609,7 +717,7 @@ void fill_blocks(const Filling& by, int x, int y, const std::int32_t (&start)[3]
     for (; some != 0; some &= some - 1) {
         const int b = std::countr_zero(some);
         fill_block(by.edges, by.t, start, b, layer.block(by.column + x + b % square_side, by.row + y + b / square_side),
-                   shading, [&] { find_shading(by.dress, by.face, by.is_flat, by.edges, by.t, shading); });
+                   by.is_cut, shading, [&] { find_shading(by.dress, by.face, by.is_flat, by.edges, by.t, shading); });
     }
 }
 
@@ -696,6 +804,7 @@ void fill_person(const PersonMesh& mesh, const PersonOnGrid& person, NearLayer& 
     const Blocks within_person{seen.first_column - origin_column, seen.end_column - origin_column,
                                seen.first_row - origin_row, seen.end_row - origin_row};
     const Dress dress{mesh, person.vertices, person.tints};
+    const bool has_cutouts = !mesh.alphas.empty();
     EdgeGroup edges;
     for (std::size_t first = 0; first < person.facing.size(); first += group) {
         const FacingTriangle* facing = person.facing.data() + first;
@@ -705,9 +814,10 @@ void fill_person(const PersonMesh& mesh, const PersonOnGrid& person, NearLayer& 
         const std::uint32_t flat = set_up_depths(mesh, facing, alive, person.vertices, edges);
         for (; alive != 0; alive &= alive - 1) {
             const int t = std::countr_zero(alive);
-            fill_triangle({dress, edges, t, facing[t].face, origin_column + edges.first_column[t],
-                           origin_row + edges.first_row[t], (flat >> t & 1) != 0},
-                          layer);
+            fill_triangle(
+                {dress, edges, t, facing[t].face, origin_column + edges.first_column[t],
+                 origin_row + edges.first_row[t], (flat >> t & 1) != 0, has_cutouts && is_cut(mesh, facing[t].face)},
+                layer);
         }
     }
 }
@@ -764,7 +874,7 @@ void fill_wide(const TextureLayers& textures, const WideTriangle& t, NearLayer& 
     };
     const Slopes slopes{a_sample(edges[1].along), a_sample(edges[1].down), a_sample(edges[2].along),
                         a_sample(edges[2].down)};
-    const RichShading shades = rich_shading(textures, t.corners, t.layer, slopes);
+    const RichShading shades = rich_shading(textures, t.corners, t.texturing, slopes);
     for (int row = blocks.first_row; row < blocks.end_row; ++row) {
         for (int column = blocks.first_column; column < blocks.end_column; ++column) {
             const std::int64_t x = (std::int64_t{sample_block_side} * column) * grid_per_sample + grid_per_sample / 2;
@@ -798,7 +908,10 @@ void fill_wide(const TextureLayers& textures, const WideTriangle& t, NearLayer& 
                 const auto depth =
                     between(shades.at.depth, shades.to_second.depth, shades.to_third.depth, second, third);
                 const Block block = layer.block(column - layer.blocks().x0, row - layer.blocks().y0);
-                if (!nearer(depth, mask, block, lane)) continue;
+                const auto exists = [&](FloatMask& there) {
+                    return !(shades.alpha_cutoff > 0) || keep_surface(shades, second, third, there);
+                };
+                if (!nearer(depth, mask, block, lane, exists)) continue;
                 shade(shades, second, third, mask, block, lane);
                 update_farthest(block);
             }

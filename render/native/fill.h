@@ -23,13 +23,14 @@ struct Corner {
     float depth;      // near_plane / view depth
     float albedo[3];  // linear, times `full`
     float u, v;
+    float alpha = 1;  // where there are cutouts
 };
 
 // A triangle of any size, anywhere.
 struct WideTriangle {
     std::int32_t x[3], y[3];  // [grid steps] from the picture's corner, within wide_reach of it; clockwise
     Corner corners[3];
-    std::uint8_t layer;  // or untextured
+    Texturing texturing;
 };
 inline constexpr std::int32_t wide_reach = 1 << 21;
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <tuple>
 
+#include "model/cutout.h"
 #include "render/native/vertices.h"
 #include "render/texture_layers.h"
 
@@ -45,6 +46,19 @@ std::vector<std::uint32_t> paint_numbers(const model::Mesh& mesh, std::vector<Pa
     return numbers;
 }
 
+// Of a material, among those that are known; added if it isn't.
+std::uint16_t number_of(const model::Material& material, std::vector<Texturing>& known) {
+    Texturing wanted{.alpha_cutoff = material.alpha_cutoff};
+    if (material.texture != model::no_texture) {
+        wanted.layer = material.texture;
+        wanted.sampler = material.sampler;
+    }
+    const auto place = std::ranges::find(known, wanted);
+    const auto number = static_cast<std::uint16_t>(place - known.begin());
+    if (place == known.end()) known.push_back(wanted);
+    return number;
+}
+
 }  // namespace
 
 TextureLayers::TextureLayers(std::span<const model::Texture> textures) {
@@ -70,20 +84,23 @@ PersonMesh::PersonMesh(const figures::Figure& figure)
     : poses(figure.poses),
       vertex_count(static_cast<std::uint32_t>(figure.mesh->vertex_count())),
       double_sided(figure.mesh->double_sided()),
+      texturings(1),
       textures(figure.mesh->textures) {
     const model::Mesh& mesh = *figure.mesh;
     const std::vector<std::uint32_t> paint_of = paint_numbers(mesh, paints);
+    std::vector<std::uint16_t> texturing_of;
+    for (const model::Material& material : mesh.materials) texturing_of.push_back(number_of(material, texturings));
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         const std::uint32_t a = mesh.indices[i], b = mesh.indices[i + 2], c = mesh.indices[i + 1];
-        // As OpenGL has it, the last corner of the file's order says which texture.
-        const std::uint8_t texture = mesh.material_of(b).texture;
-        const std::uint8_t layer = texture == model::no_texture ? untextured : texture;
+        const std::uint16_t texturing = texturing_of[mesh.material_ids[b]];  // the last corner in the file's order says
         const bool one_paint = paint_of[a] == paint_of[b] && paint_of[a] == paint_of[c];
-        faces.push_back({{a, b, c}, {paint_of[a], paint_of[b], paint_of[c]}, layer, one_paint && layer == untextured});
+        faces.push_back({{a, b, c}, {paint_of[a], paint_of[b], paint_of[c]}, texturing, one_paint && texturing == 0});
         for (int corner = 0; corner < 3; ++corner)
             corners[corner].push_back(static_cast<std::int32_t>(faces.back().corners[corner]));
     }
     for (auto& list : corners) list.resize((list.size() + group - 1) / group * group);
+    if (model::has_cutouts(mesh))
+        for (const glm::u8vec4& color : mesh.colors) alphas.push_back(static_cast<float>(color.a) / 255.0f);
     if (mesh.textures.empty()) return;
     for (const glm::vec2 uv : mesh.uvs) uvs.push_back(glm::unpackHalf2x16(glm::packHalf2x16(uv)));  // what GL is given
 }

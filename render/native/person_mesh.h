@@ -36,11 +36,20 @@ struct Paint {
 
 inline constexpr std::uint8_t untextured = 255;
 
+// What differs between triangles beyond their corners.
+struct Texturing {
+    std::uint8_t layer = untextured;
+    model::Sampler sampler;
+    float alpha_cutoff = 0;  // model::Material's
+
+    bool operator==(const Texturing&) const = default;
+};
+
 struct Face {
     std::array<std::uint32_t, 3> corners;  // clockwise as seen from outside
     std::array<std::uint32_t, 3> paints;
-    std::uint8_t layer;  // or untextured
-    bool plain;          // of one paint, without texture
+    std::uint16_t texturing;  // into PersonMesh::texturings
+    bool plain;               // of one paint, without texture
 };
 
 struct PersonMesh {
@@ -51,6 +60,8 @@ struct PersonMesh {
     std::array<std::vector<std::int32_t>, 3> corners;  // of faces; filled up with vertex 0 to whole groups
     std::vector<Paint> paints;                         // no two alike
     std::vector<glm::vec2> uvs;                        // one a vertex; none without textures
+    std::vector<float> alphas;                         // [0, 1] one a vertex; none without cutouts
+    std::vector<Texturing> texturings;                 // no two alike; the first is of neither texture nor cutouts
     TextureLayers textures;
 
     explicit PersonMesh(const figures::Figure& figure);  // refers to the figure's poses

@@ -210,11 +210,13 @@ Rect PersonTriangles::place_anywhere(const View& view, const PersonMesh& mesh, c
             const std::uint32_t v = face.corners[k];
             const Tint& tint = tints_[face.paints[k]];
             const glm::vec2 uv = mesh.uvs.empty() ? glm::vec2(0) : mesh.uvs[v];
+            const float alpha = mesh.alphas.empty() ? 1.0f : mesh.alphas[v];
             const float* light = lit_[v].light;
             triangle[k] = {applied(placement, posed[v]),
-                           {{light[0], light[1], light[2]}, 0, {tint.red, tint.green, tint.blue}, uv.x, uv.y}};
+                           {{light[0], light[1], light[2]}, 0, {tint.red, tint.green, tint.blue}, uv.x, uv.y, alpha}};
         }
-        append_clipped(triangle, placement.center_x, placement.center_y, mesh.double_sided, face.layer, wide_);
+        append_clipped(triangle, placement.center_x, placement.center_y, mesh.double_sided,
+                       mesh.texturings[face.texturing], wide_);
     }
     Extent extent{INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
     for (const WideTriangle& t : wide_) {

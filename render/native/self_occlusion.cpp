@@ -13,6 +13,8 @@
 #include <limits>
 #include <numeric>
 
+#include "model/cutout.h"
+
 #ifndef GRANDSTAND_SELF_OCCLUSION
 #define GRANDSTAND_SELF_OCCLUSION
 
@@ -322,6 +324,15 @@ void fit(Screen& screen, glm::vec3 low, glm::vec3 high) {
     screen.rows = cells(size.y) + 1;
 }
 
+// Into how many pieces along each side triangles with cutouts are cut, of which each is there or not.
+int pieces_along(const model::Mesh& mesh) {
+    constexpr double all_pieces = 16384, most_along = 16;
+    std::size_t cut = 0;
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+        cut += model::material_of_triangle(mesh, t).alpha_cutoff > 0;
+    return static_cast<int>(std::clamp(std::sqrt(all_pieces / std::max<double>(1, cut)), 1.0, most_along));
+}
+
 }  // namespace
 
 SelfOcclusion::SelfOcclusion(const figures::Figure& figure, int pose, std::span<const glm::vec3> facets,
@@ -336,16 +347,49 @@ SelfOcclusion::SelfOcclusion(const figures::Figure& figure, int pose, std::span<
         append(positions_, motion::unpack_position(point, poses.box));
         append(facets_, shares[i] * facets[i]);
     }
+    add_triangles(*figure.mesh);
     fill_up(vertices_);
     fill_up(positions_);
     for (Array<float>& axis : facets_) axis.resize(positions_[0].size());  // what isn't there shows nothing
     on_screen_ = vertices_;
-    for (std::size_t i = 0; i < figure.mesh->indices.size(); ++i)
-        corners_[i % 3].push_back(static_cast<std::int32_t>(figure.mesh->indices[i]));
     for (Array<std::int32_t>& corner : corners_)
         corner.resize(static_cast<std::size_t>(filled_up(static_cast<int>(corner.size()))));
     for (Array<float>& shown : shown_) shown.resize(positions_[0].size());
     for (Array<std::uint32_t>& visible : visible_) visible.resize((positions_[0].size() + 31) / 32);
+}
+
+void SelfOcclusion::add_triangles(const model::Mesh& mesh) {
+    const bool has_cutouts = model::has_cutouts(mesh);
+    const int along = has_cutouts ? pieces_along(mesh) : 1;
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+        if (has_cutouts && model::material_of_triangle(mesh, t).alpha_cutoff > 0) {
+            add_pieces(mesh, t, along);
+            continue;
+        }
+        for (std::size_t k = 0; k < 3; ++k) corners_[k].push_back(static_cast<std::int32_t>(mesh.indices[3 * t + k]));
+    }
+}
+
+void SelfOcclusion::add_pieces(const model::Mesh& mesh, std::size_t triangle, int along) {
+    std::array<glm::vec3, 3> corner;
+    for (std::size_t k = 0; k < 3; ++k)
+        for (int axis = 0; axis < 3; ++axis) corner[k][axis] = vertices_[axis][mesh.indices[3 * triangle + k]];
+    // What the second and the third corner have of each of a piece's, in pieces.
+    const auto add = [&](std::array<glm::ivec2, 3> shares) {
+        const glm::vec2 middle = glm::vec2(shares[0] + shares[1] + shares[2]) / (3.0f * static_cast<float>(along));
+        if (!model::has_surface(mesh, triangle, middle.x, middle.y)) return;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const glm::vec2 share = glm::vec2(shares[k]) / static_cast<float>(along);
+            corners_[k].push_back(static_cast<std::int32_t>(vertices_[0].size()));
+            append(vertices_, (1 - share.x - share.y) * corner[0] + share.x * corner[1] + share.y * corner[2]);
+        }
+    };
+    for (int i = 0; i < along; ++i) {
+        for (int j = 0; i + j < along; ++j) {
+            add({glm::ivec2(i, j), {i + 1, j}, {i, j + 1}});
+            if (i + j + 1 < along) add({glm::ivec2(i + 1, j), {i + 1, j + 1}, {i, j + 1}});
+        }
+    }
 }
 
 std::array<SelfOcclusion::Seen, 2> SelfOcclusion::look_both_ways(glm::vec3 direction) {

@@ -35,6 +35,10 @@ public:
     using Axes = std::array<Array<float>, 3>;
 
 private:
+    void add_triangles(const model::Mesh& mesh);
+    // Those pieces of one that a mask leaves.
+    void add_pieces(const model::Mesh& mesh, std::size_t triangle, int along);
+
     int points_;
     bool double_sided_;
     std::array<Array<std::int32_t>, 3> corners_;  // of the triangles, filled up with some that have no area

@@ -1,5 +1,5 @@
 // A character whose surfaces have two sides, as points: a bent sheet covers as much and sends the same light as its
-// triangles do, from whichever side it is seen.
+// triangles do, from whichever side it is seen, and if it is full of holes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,18 +21,27 @@ constexpr int around = 24;                                    // strips of it
 constexpr int most_points = 2000;
 
 // Open towards -z: its outer side faces +z.
-model::Character make_sheet() {
+model::Character make_sheet(bool has_holes) {
     model::Character sheet;
     sheet.name = "sheet";
     model::Mesh& mesh = sheet.mesh;
     model::Material cloth;
     cloth.double_sided = true;
+    if (has_holes) {
+        constexpr int texels = 32, strip = 4;  // two of five strips are open
+        cloth.texture = 0;
+        cloth.alpha_cutoff = 0.5f;
+        mesh.textures.push_back({texels, texels, {}});
+        for (int i = 0; i < texels * texels; ++i)
+            mesh.textures[0].texels.emplace_back(255, 255, 255, i % texels / strip % 5 < 3 ? 255 : 0);
+    }
     mesh.materials.push_back(cloth);
     for (int i = 0; i <= around; ++i)
         for (const double y : {0.0, height}) {
             const double turn = std::numbers::pi * (static_cast<double>(i) / around - 0.5);
             const glm::vec3 normal(std::sin(turn), 0, std::cos(turn));
             tests::add_vertex(mesh, {radius * std::sin(turn), y, radius * std::cos(turn)}, normal);
+            mesh.uvs.back() = glm::vec2(static_cast<double>(i) / around, y / height);
         }
     for (std::uint32_t i = 0; i < around; ++i)
         for (const std::uint32_t corner : {0, 2, 1, 1, 2, 3}) mesh.indices.push_back(2 * i + corner);
@@ -41,9 +50,11 @@ model::Character make_sheet() {
 }
 
 struct Sheet {
-    model::Character character = make_sheet();
+    model::Character character;
     pointsample::PointModel points = sample();
     motion::PoseTable poses = motion::bake_poses(character, {}, points.surface, std::size_t{1} << 20);
+
+    explicit Sheet(bool has_holes) : character(make_sheet(has_holes)) {}
 
     pointsample::PointModel sample() const {
         pointsample::SampleOptions options;
@@ -53,9 +64,9 @@ struct Sheet {
     std::vector<figures::Figure> figures() const { return {{&character.mesh, &poses, &points}}; }
 };
 
-const Sheet& sheet() {
-    static const Sheet one;
-    return one;
+const Sheet& sheet(bool has_holes) {
+    static const Sheet whole(false), holed(true);
+    return has_holes ? holed : whole;
 }
 
 scene::Light before_black(float from_around, float from_sun) {
@@ -77,8 +88,9 @@ scene::Light from_outside() {
 
 class Stage {
 public:
-    explicit Stage(const scene::Light& light)
-        : renderer_(scene::StaticMesh{}, scene::Ground{}, light, sheet().figures(), side, side) {}
+    explicit Stage(const scene::Light& light, bool has_holes = false)
+        : sheet_(sheet(has_holes)),
+          renderer_(scene::StaticMesh{}, scene::Ground{}, light, sheet_.figures(), side, side) {}
 
     // [px] of white that as many points send as are to be drawn there, towards an eye `azimuth` around from +z.
     double of_points(double azimuth, int points) { return light_sent(azimuth, pixels_a_metre(points), points); }
@@ -88,9 +100,9 @@ public:
     }
 
 private:
-    static double pixels_a_metre(int points) {
+    double pixels_a_metre(int points) const {
         constexpr double points_a_pixel = 1.2;
-        return std::sqrt(points / (points_a_pixel * static_cast<double>(sheet().poses.area)));
+        return std::sqrt(points / (points_a_pixel * static_cast<double>(sheet_.poses.area)));
     }
 
     // 0 points: as triangles.
@@ -120,6 +132,7 @@ private:
         return sum;
     }
 
+    const Sheet& sheet_;
     render::native::Renderer renderer_;
 };
 
@@ -131,6 +144,17 @@ TEST(NativeDoubleSided, CoversWhatItsTrianglesDoFromEverySide) {
     constexpr double near_enough = 0.12;  // of what is covered: points are gathered into pixels, and few are uneven
     Stage stage(even());
     for (const int points : counts)
+        for (int i = 0; i < azimuths; ++i) {
+            const double azimuth = 2 * std::numbers::pi * i / azimuths;
+            const double covered = stage.of_points(azimuth, points), truth = stage.of_triangles(azimuth, points);
+            EXPECT_NEAR(covered / truth, 1, near_enough) << points << " points, azimuth " << azimuth;
+        }
+}
+
+TEST(NativeDoubleSided, CoversWhatItsTrianglesDoBesideItsHoles) {
+    constexpr double near_enough = 0.15;
+    Stage stage(even(), true);
+    for (const int points : {40, 200, 513, most_points})
         for (int i = 0; i < azimuths; ++i) {
             const double azimuth = 2 * std::numbers::pi * i / azimuths;
             const double covered = stage.of_points(azimuth, points), truth = stage.of_triangles(azimuth, points);

@@ -205,6 +205,10 @@ TEST_F(Likeness, OfAnOpenHarlequin) {
     expect_alike("open", reference::make_harlequin(true));
 }
 
+TEST_F(Likeness, OfAMaskedHarlequin) {
+    expect_alike("masked", reference::make_masked_harlequin());
+}
+
 TEST_F(Likeness, OfATexturedMan) {
     expect_asset_alike("CesiumMan");
 }

@@ -355,7 +355,7 @@ Corner look_of(std::size_t who, double depth) {
 
 WideTriangle wide(const ExactTriangle& triangle, std::size_t who) {
     WideTriangle out;
-    out.layer = untextured;
+    out.texturing = {};
     for (int k = 0; k < 3; ++k) {
         out.x[k] = static_cast<std::int32_t>(triangle.corners[k].x);
         out.y[k] = static_cast<std::int32_t>(triangle.corners[k].y);
@@ -494,7 +494,7 @@ Drawn draw(TileScene& scene, const Lens& lens, const std::vector<std::array<glm:
            bool double_sided) {
     std::vector<WideTriangle> triangles;
     for (const auto& place : places)
-        append_clipped(lens.placed(place, 1), lens.center_x, lens.center_y, double_sided, untextured, triangles);
+        append_clipped(lens.placed(place, 1), lens.center_x, lens.center_y, double_sided, {untextured}, triangles);
     scene.layer.begin(scene.tile, scene.behind);
     fill(TextureLayers(), triangles, scene.layer);
     Drawn out;

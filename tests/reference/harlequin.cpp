@@ -180,4 +180,19 @@ model::Character make_harlequin(bool open) {
     return harlequin;
 }
 
+model::Character make_masked_harlequin() {
+    model::Character harlequin = make_harlequin(true);
+    harlequin.name = "masked harlequin";
+    model::Mesh& mesh = harlequin.mesh;
+    using enum model::Wrap;
+    mesh.materials[1].sampler = {mirror, clamp, false};
+    mesh.materials[2].sampler = {clamp, repeat, true};
+    for (const std::size_t material : {1u, 2u}) mesh.materials[material].alpha_cutoff = 0.5f;
+    for (model::Texture& texture : mesh.textures)  // a hole
+        for (int y = texture.height / 4; y < texture.height / 2; ++y)
+            for (int x = texture.width / 4; x < texture.width * 3 / 4; ++x)
+                texture.texels[static_cast<std::size_t>(y) * texture.width + x].a = 0;
+    return harlequin;
+}
+
 }  // namespace reference

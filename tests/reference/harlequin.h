@@ -10,4 +10,7 @@ namespace reference {
 // both sides.
 model::Character make_harlequin(bool open);
 
+// The open one with holes in what is textured, one of whose textures is mirrored and clamped, the other not blended.
+model::Character make_masked_harlequin();
+
 }  // namespace reference

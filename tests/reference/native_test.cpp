@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "tests/reference/harlequin.h"
 #include "tests/reference/stadium.h"
 #include "tests/reference/studio.h"
 
@@ -102,6 +103,22 @@ TEST_P(NativePortrait, IsTheReferencesOnAverageByPoints) {
                                     {8, worst_by_size * splat_size, most_mean_error},
                                     one.what + ", S " + std::to_string(splat_size));
         }
+    }
+}
+
+TEST(NativeHarlequin, WithCutoutsAndSamplersIsTheReferences) {
+    constexpr int width = 200, height = 160;  // [px]
+    constexpr Exceptions exceptions{0, 1.0 / 2000};
+    const reference::Model model(reference::make_masked_harlequin(), {0, 1}, 400);
+    const auto renderer = reference::make_renderer(way, nothing, {}, std::vector{model.product()}, width, height);
+    const reference::Model* const models[] = {&model};
+    for (const reference::Sitting& one : reference::all_around(model, {0.35, 1.2, 3.0, 12.0, 90.0})) {
+        const render::View view = render::make_view(one.pose, width, height);
+        renderer->begin(view);
+        renderer->draw(reference::frame_of({&one.person, 1}, models, view, 0, way));
+        const reference::Picture expected = reference::draw(
+            {{one.pose, width, height}, {one.person}, nullptr, {}, 0, 0, reference::samples_of(way, 0)});
+        expect_alike(renderer->read_image(), expected, exceptions, one.what);
     }
 }
 

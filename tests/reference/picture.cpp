@@ -71,9 +71,18 @@ private:
         bool centre;  // of a pixel
     };
 
+    enum class Existence { certain, uncertain, none };
+
     // Calls `shade(spot)` for each place that the triangle is nearest in.
     template <typename ShadeOf>
     void triangle(const std::array<glm::dvec3, 3>& corners, bool two_sided, ShadeOf shade) {
+        triangle(
+            corners, two_sided, [](const auto&) { return Existence::certain; }, shade);
+    }
+
+    // The same of a triangle of which there is only what `exists` says of a function that makes the spot.
+    template <typename Exists, typename ShadeOf>
+    void triangle(const std::array<glm::dvec3, 3>& corners, bool two_sided, Exists exists, ShadeOf shade) {
         // Homogeneous pixel coordinates: x and y times depth, and depth (Olano and Greer 1997). No corner need be in
         // front of the camera.
         std::array<glm::dvec3, 3> h;
@@ -105,13 +114,16 @@ private:
                 if (over_depth.x < 0 || over_depth.y < 0 || over_depth.z < 0) continue;
                 const double depth = 1 / (over_depth.x + over_depth.y + over_depth.z);
                 if (!(depth >= Camera::near)) continue;
-                put(x, y, place, depth, true, [&] {
+                const auto spot = [&] {
                     const auto share_at = [&](double sx, double sy) {
                         const glm::dvec3 there = at(sx, sy);
                         return there / (there.x + there.y + there.z);
                     };
-                    return shade(Spot{share_at(px, py), share_at(px + 1, py), share_at(px, py + 1), place == 0});
-                });
+                    return Spot{share_at(px, py), share_at(px + 1, py), share_at(px, py + 1), place == 0};
+                };
+                const Existence existence = exists(spot);
+                if (existence == Existence::none) continue;
+                put(x, y, place, depth, existence == Existence::certain, [&] { return shade(spot()); });
             }
         });
     }
@@ -177,13 +189,6 @@ private:
         return slot == 0 ? glm::dvec3(1) : linear(person.palette.colors[slot - 1]);
     }
 
-    // A figure is seen from both sides if any of its materials is.
-    static bool open(const model::Mesh& mesh) {
-        bool any = false;
-        for (const model::Material& material : mesh.materials) any |= material.double_sided;
-        return any;
-    }
-
     // Light on a vertex or point; of a surface that is seen from both sides, on the side that is seen.
     static Shade light_seen(const glm::dvec3& normal, const glm::dvec3& at, bool both_sides) {
         const double facing = -glm::dot(normal, glm::normalize(at));
@@ -203,28 +208,41 @@ private:
         for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
             at.push_back(origin + person.scale * (axes * surface.positions[v]));
             albedo.push_back(linear(mesh.colors[v]) * tint_of(person, mesh.slots[v]));
-            light.push_back(light_seen(axes * surface.normals[v], at[v], open(mesh)));
+            light.push_back(
+                light_seen(axes * surface.normals[v], at[v], mesh.materials[mesh.material_ids[v]].double_sided));
         }
         for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
             const std::uint32_t a = mesh.indices[i], b = mesh.indices[i + 1], c = mesh.indices[i + 2];
-            triangle({at[a], at[b], at[c]}, open(mesh), [&](const Spot& spot) {
-                const auto blend = [](const auto& x, const auto& y, const auto& z, const glm::dvec3& by) {
-                    return by.x * x + by.y * y + by.z * z;
-                };
+            const model::Material& material = mesh.materials[mesh.material_ids[c]];
+            const auto blend = [](const auto& x, const auto& y, const auto& z, const glm::dvec3& by) {
+                return by.x * x + by.y * y + by.z * z;
+            };
+            const auto texel_at = [&](const Spot& spot) -> Texel {
+                if (material.texture == model::no_texture) return {glm::dvec4(1), glm::dvec4(1)};
                 const auto uv = [&](const glm::dvec3& by) {
                     return blend(glm::dvec2(mesh.uvs[a]), glm::dvec2(mesh.uvs[b]), glm::dvec2(mesh.uvs[c]), by);
                 };
-                Shade texel = Shade::exactly(glm::dvec3(1));
-                const int texture = mesh.materials[mesh.material_ids[c]].texture;
-                if (texture != model::no_texture) {
-                    const glm::dvec2 here = uv(spot.share);
-                    texel = texels(mesh, texture, here, uv(spot.right) - here, uv(spot.below) - here);
-                }
+                const glm::dvec2 here = uv(spot.share);
+                return texels(mesh, material, here, uv(spot.right) - here, uv(spot.below) - here);
+            };
+            const auto exists = [&](const auto& spot_of) {
+                if (!(material.alpha_cutoff > 0)) return Existence::certain;
+                const Spot spot = spot_of();
+                const Texel texel = texel_at(spot);
+                const double own =
+                    blend(mesh.colors[a].a / 255.0, mesh.colors[b].a / 255.0, mesh.colors[c].a / 255.0, spot.share);
+                constexpr double uncertain = 0.02;  // texels are blended in steps of 1 / 256
+                const double cutoff = static_cast<double>(material.alpha_cutoff);
+                if (own * texel.high.a < cutoff - uncertain) return Existence::none;
+                return own * texel.low.a < cutoff + uncertain ? Existence::uncertain : Existence::certain;
+            };
+            triangle({at[a], at[b], at[c]}, material.double_sided, exists, [&](const Spot& spot) {
+                const Texel texel = texel_at(spot);
+                const glm::dvec3 low(texel.low), high(texel.high);
                 const glm::dvec3 own = blend(albedo[a], albedo[b], albedo[c], spot.share);
                 return Shade::between(
-                    stored(own * texel.low * texel.low * blend(light[a].low, light[b].low, light[c].low, spot.share)),
-                    stored(own * texel.high * texel.high *
-                           blend(light[a].high, light[b].high, light[c].high, spot.share)));
+                    stored(own * low * low * blend(light[a].low, light[b].low, light[c].low, spot.share)),
+                    stored(own * high * high * blend(light[a].high, light[b].high, light[c].high, spot.share)));
             });
         }
     }
@@ -232,13 +250,19 @@ private:
     // A texture's mipmaps: square, a power of two, as large as the figure's largest, each half the one before.
     struct Level {
         int side;
-        std::vector<glm::dvec3> texels;  // [0, 1] as stored
-        glm::dvec3 at(int x, int y) const {
-            const auto wrapped = [&](int v) { return (v % side + side) % side; };
-            return texels[static_cast<std::size_t>(wrapped(y)) * side + wrapped(x)];
+        std::vector<glm::dvec4> texels;  // [0, 1] as stored
+        const glm::dvec4& own(int x, int y) const { return texels[static_cast<std::size_t>(y) * side + x]; }
+        // What is shown in the place of a texel that there may not be.
+        int shown(model::Wrap wrap, int v) const {
+            if (wrap == model::Wrap::clamp) return std::clamp(v, 0, side - 1);
+            const int period = wrap == model::Wrap::mirror ? 2 * side : side, within = (v % period + period) % period;
+            return within < side ? within : period - 1 - within;
         }
-        // Between the four texels whose middles surround it; v counts from the top row.
-        glm::dvec3 between(const glm::dvec2& uv) const {
+        // The nearest, or between the four texels whose middles surround it; v counts from the top row.
+        glm::dvec4 seen(const model::Sampler& sampler, const glm::dvec2& uv) const {
+            const auto at = [&](int x, int y) { return own(shown(sampler.across, x), shown(sampler.down, y)); };
+            if (sampler.nearest)
+                return at(static_cast<int>(std::floor(uv.x * side)), static_cast<int>(std::floor(uv.y * side)));
             const double x = uv.x * side - 0.5, y = uv.y * side - 0.5;
             const int left = static_cast<int>(std::floor(x)), top = static_cast<int>(std::floor(y));
             return glm::mix(glm::mix(at(left, top), at(left + 1, top), x - left),
@@ -257,10 +281,10 @@ private:
             for (int x = 0; x < side; ++x) {
                 const int x0 = x * texture.width / side, x1 = std::max(x0 + 1, (x + 1) * texture.width / side);
                 const int y0 = y * texture.height / side, y1 = std::max(y0 + 1, (y + 1) * texture.height / side);
-                glm::dvec3 sum(0);
+                glm::dvec4 sum(0);
                 for (int v = y0; v < y1; ++v)
                     for (int u = x0; u < x1; ++u)
-                        sum += glm::dvec3(texture.texels[static_cast<std::size_t>(v) * texture.width + u]) / 255.0;
+                        sum += glm::dvec4(texture.texels[static_cast<std::size_t>(v) * texture.width + u]) / 255.0;
                 level.texels.push_back(sum / (1.0 * (x1 - x0) * (y1 - y0)));
             }
         }
@@ -270,18 +294,23 @@ private:
             Level coarser{finer.side / 2, {}};
             for (int y = 0; y < coarser.side; ++y)
                 for (int x = 0; x < coarser.side; ++x)
-                    coarser.texels.push_back((finer.at(2 * x, 2 * y) + finer.at(2 * x + 1, 2 * y) +
-                                              finer.at(2 * x, 2 * y + 1) + finer.at(2 * x + 1, 2 * y + 1)) /
+                    coarser.texels.push_back((finer.own(2 * x, 2 * y) + finer.own(2 * x + 1, 2 * y) +
+                                              finer.own(2 * x, 2 * y + 1) + finer.own(2 * x + 1, 2 * y + 1)) /
                                              4.0);
             levels.push_back(coarser);
         }
         return levels;
     }
 
+    struct Texel {
+        glm::dvec4 low, high;
+    };
+
     // The mipmap is the one whose texels are nearest to pixels in size. Drivers measure that as they like, within a
     // factor of the square root of two.
-    Shade texels(const model::Mesh& mesh, int id, const glm::dvec2& uv, const glm::dvec2& per_x,
-                 const glm::dvec2& per_y) {
+    Texel texels(const model::Mesh& mesh, const model::Material& material, const glm::dvec2& uv,
+                 const glm::dvec2& per_x, const glm::dvec2& per_y) {
+        const int id = material.texture;
         std::vector<Level>& levels = mipmaps_[{&mesh, id}];
         if (levels.empty()) levels = levels_of(mesh, id);
         const int last = static_cast<int>(levels.size()) - 1;
@@ -291,16 +320,16 @@ private:
         const int from = static_cast<int>(std::clamp(std::round(shortest - 0.1), 0.0, 1.0 * last));
         const int to = static_cast<int>(std::clamp(std::round(longest + 0.1), 0.0, 1.0 * last));
         constexpr double uv_steps = 1.0 / 2048;  // half floats have eleven bits
-        Shade shade = Shade::between(glm::dvec3(INFINITY), glm::dvec3(-INFINITY));
+        Texel shown{glm::dvec4(INFINITY), glm::dvec4(-INFINITY)};
         for (int level = from; level <= to; ++level) {
             for (const glm::dvec2& shift : places) {
-                const glm::dvec3 texel = levels[static_cast<std::size_t>(level)].between(
-                    uv + shift / off * (uv_steps * glm::max(glm::abs(uv), glm::dvec2(0.25))));
-                shade.low = glm::min(shade.low, texel);
-                shade.high = glm::max(shade.high, texel);
+                const glm::dvec4 texel = levels[static_cast<std::size_t>(level)].seen(
+                    material.sampler, uv + shift / off * (uv_steps * glm::max(glm::abs(uv), glm::dvec2(0.25))));
+                shown.low = glm::min(shown.low, texel);
+                shown.high = glm::max(shown.high, texel);
             }
         }
-        return shade;
+        return shown;
     }
 
     void draw_splats(const Person& person) {
@@ -308,10 +337,11 @@ private:
         const model::Mesh& mesh = person.figure->mesh();
         const Surface& surface = person.figure->pose(person.slot, person.tick);
         const std::vector<Figure::Look>& looks = person.figure->looks(person.points);
-        const bool both_sides = open(mesh) || person.points <= few;
         const glm::dmat3 axes = axes_of(person);
         for (std::size_t p = 0; p < person.points; ++p) {
             const motion::SurfacePoint& spot = person.figure->points().surface[p];
+            const std::uint32_t last = mesh.indices[3 * std::size_t{spot.triangle} + 2];
+            const bool both_sides = mesh.material_of(last).double_sided || person.points <= few;
             glm::dvec3 position(0), normal(0);
             const double share[] = {1.0 - spot.u - spot.v, spot.u, spot.v};
             for (std::size_t corner = 0; corner < 3; ++corner) {

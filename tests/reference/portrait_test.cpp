@@ -227,6 +227,9 @@ TEST_F(Portrait, OfAHarlequinIsTheReferences) {
 TEST_F(Portrait, OfAnOpenHarlequinIsTheReferences) {
     expect_alike_all_around(*harlequin(true));
 }
+TEST_F(Portrait, OfAMaskedHarlequinIsTheReferences) {
+    expect_alike_all_around(Model(reference::make_masked_harlequin(), {0, 1}, 800));
+}
 TEST_F(Portrait, OfThePersonIsTheReferencesByAnyNumberOfPoints) {
     expect_alike_by_every_number_of_points(*built_in());
 }

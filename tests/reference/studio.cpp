@@ -9,12 +9,22 @@
 #include <utility>
 
 #include "model/io/mesh_file.h"
+#include "model/sides.h"
 #include "scene/cast.h"
 
 namespace reference {
 
+namespace {
+
+model::Character with_sides_split(model::Character character) {
+    model::split_sides(character.mesh);
+    return character;
+}
+
+}  // namespace
+
 Model::Model(model::Character from, std::vector<int> played, std::size_t point_count)
-    : character(std::move(from)), clips(std::move(played)), figure(character, clips, &points) {
+    : character(with_sides_split(std::move(from))), clips(std::move(played)), figure(character, clips, &points) {
     constexpr std::size_t poses_to_cover = 4, byte_budget = std::size_t{1} << 27;
     const std::vector<pointsample::PosedMesh> spread = pointsample::spread_poses(character, clips, poses_to_cover);
     points = pointsample::sample(character.mesh, spread, {.count = point_count});
