@@ -122,6 +122,73 @@ TEST(NativeHarlequin, WithCutoutsAndSamplersIsTheReferences) {
     }
 }
 
+// Black, a little larger than all of it, and facing inward.
+void add_outline_hull(model::Mesh& mesh) {
+    constexpr float thickness = 0.01f;  // [m]
+    const std::size_t vertices = mesh.vertex_count(), corners = mesh.indices.size();
+    for (std::size_t v = 0; v < vertices; ++v) {
+        mesh.positions.push_back(mesh.positions[v] + thickness * mesh.normals[v]);
+        mesh.normals.push_back(-mesh.normals[v]);
+        mesh.uvs.push_back(mesh.uvs[v]);
+        mesh.colors.emplace_back(0, 0, 0, 255);
+        mesh.slots.push_back(model::no_slot);
+        mesh.material_ids.push_back(static_cast<std::uint16_t>(mesh.materials.size()));
+        mesh.joints.push_back(mesh.joints[v]);
+        mesh.weights.push_back(mesh.weights[v]);
+    }
+    mesh.materials.emplace_back();
+    for (std::size_t i = 0; i < corners; i += 3)
+        for (const std::size_t k : {1, 0, 2})
+            mesh.indices.push_back(static_cast<std::uint32_t>(vertices) + mesh.indices[i + k]);
+}
+
+// Beside materials of both kinds, as triangles and as points: drawn from both sides, the hull would make it black.
+TEST(NativeHarlequin, InAnOutlineHullLooksAsItDoesWithout) {
+    constexpr int width = 200, height = 160;        // [px]
+    constexpr double rim = 0.35, by_chance = 0.35;  // of what a black body would be off
+    for (const bool is_double_sided : {false, true}) {
+        model::Character bare = reference::make_harlequin(false);
+        for (model::Material& material : bare.mesh.materials) material.double_sided = is_double_sided;
+        model::Character hulled = bare;
+        bare.mesh.morphs.clear();
+        hulled.mesh.morphs.clear();
+        add_outline_hull(hulled.mesh);
+        model::Character black = bare;
+        for (glm::u8vec4& color : black.mesh.colors) color = {0, 0, 0, 255};
+        constexpr std::size_t points = 2000;
+        const reference::Model model(bare, {}, points), in_hull(hulled, {}, points), all_black(black, {}, points);
+        const auto shoot = [&](const reference::Model& of, const reference::Sitting& one, std::size_t by_points) {
+            reference::Person person = one.person;
+            person.figure = &of.figure;
+            person.points = by_points;
+            const reference::Model* const models[] = {&of};
+            const auto renderer = reference::make_renderer(way, nothing, {}, std::vector{of.product()}, width, height);
+            const render::View view = render::make_view(one.pose, width, height);
+            renderer->begin(view);
+            renderer->draw(reference::frame_of({&person, 1}, models, view, 1, way));
+            return renderer->read_image();
+        };
+        const auto off = [](const render::Image& a, const render::Image& b) {
+            double sum = 0;
+            for (std::size_t i = 0; i < a.pixels.size(); ++i) sum += std::abs(a.pixels[i] - b.pixels[i]);
+            return sum / static_cast<double>(a.pixels.size());
+        };
+        const auto mean = [](const render::Image& image) {
+            double sum = 0;
+            for (const std::uint8_t value : image.pixels) sum += value;
+            return sum / static_cast<double>(image.pixels.size());
+        };
+        for (const reference::Sitting& one : reference::all_around(model, {12.0})) {
+            const render::Image without = shoot(model, one, 0), with = shoot(in_hull, one, 0);
+            EXPECT_LT(off(without, with), rim * off(without, shoot(all_black, one, 0))) << one.what;
+            // Points' places differ, so that only what they send together is compared.
+            const double sent = mean(shoot(in_hull, one, points));
+            const double lost = mean(with) - mean(shoot(all_black, one, 0));
+            EXPECT_NEAR(sent, mean(with), by_chance * lost) << one.what;
+        }
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Files, NativePortrait,
                          testing::Values("CesiumMan/CesiumMan.glb", "Fox/Fox.glb", "KayKitMage/Mage.glb",
                                          "QuaterniusKnight/KnightCharacter.glb", "RaylibRobot/robot.glb"));
