@@ -4,9 +4,12 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <stdexcept>
+#include <string>
 
 #include "apps/canvas.h"
 #include "apps/free_camera.h"
+#include "apps/gallery.h"
 #include "apps/interrupt.h"
 #include "apps/memory.h"
 #include "apps/program.h"
@@ -258,7 +261,8 @@ private:
     std::string character_names() const {
         if (options_.characters.empty()) return stage_->cast.front().name;
         std::string names;
-        for (const auto& file : options_.characters) names += (names.empty() ? "" : " ") + file.string();
+        for (const CharacterFile& character : options_.characters)
+            names += (names.empty() ? "" : " ") + character.file.string();
         return names;
     }
 
@@ -280,8 +284,21 @@ private:
     bool was_steered_ = false;
 };
 
+void show_gallery(const StadiumOptions& options) {
+    OutputFile file(options.png);
+    const Gallery gallery = draw_gallery(options.characters, {.seed = options.seed,
+                                                              .cache = PointCache(options.cache),
+                                                              .way = figures::natively(),
+                                                              .strict = options.strict});
+    write_png(file, gallery.sheet);
+    if (gallery.failed > 0)
+        throw std::runtime_error(std::to_string(gallery.failed) + " of " + std::to_string(options.characters.size()) +
+                                 " files could not be drawn; " + options.png + " has the others");
+}
+
 void run(const StadiumOptions& options) {
     finish_on_signal();
+    if (options.gallery) return show_gallery(options);
     require_memory(options.people, options.width, options.height, available_memory());
     StadiumOutputs outputs(options);
     Stadium stadium(options);

@@ -21,6 +21,7 @@ constexpr const char* examples = R"(Examples:
   stadium --headless --camera close --frames 1 --state 0 --png close.png
   stadium --headless --law paper --target-ms 1000,300@30,95@100 --frames 200 --trace t.csv --summary -
   stadium --character Fox.glb --character CesiumMan.glb
+  stadium --gallery Fox.glb CesiumMan.glb --png sheet.png
 
 In the window: W A S D, E, Q and a dragged mouse fly (shift: faster), 1 to 5 choose a camera, + and - change the
 target, P pauses, F12 saves a screenshot, Esc leaves.
@@ -67,8 +68,19 @@ void add_scene_options(CLI::App& app, StadiumOptions& options) {
         ->capture_default_str();
     app.add_option("--pour-in", options.pour_in, "Seconds in which the people come in (default: all are there)")
         ->check(number_over(0, 1e6));
-    app.add_option("--character", options.characters,
-                   "glTF, GLB, OBJ or PLY file to fill the stadium with; several mix");
+    const auto add_files = [&](const std::vector<std::string>& files) {
+        for (const std::string& file : files) options.characters.push_back({file});
+    };
+    app.add_option_function<std::vector<std::string>>(
+        "--character", add_files, "glTF, GLB, OBJ or PLY file to fill the stadium with; several mix");
+    app.add_option_function<std::vector<std::string>>(
+        "--gallery",
+        [&, add_files](const std::vector<std::string>& files) {
+            options.gallery = true;
+            add_files(files);
+        },
+        "Instead of a run, write a sheet of these characters to --png: each in each role from two sides, as "
+        "triangles and as points. What can't be read is named in it, and the exit code is 1");
     app.add_flag("--strict", options.strict, "Refuse characters of which anything would be lost, instead of warning");
     app.add_option("--camera", options.camera, "still, close, medium, remote, roam or a FILE.json with keys")
         ->capture_default_str();
@@ -133,6 +145,17 @@ void add_output_options(CLI::App& app, StadiumOptions& options) {
     app.add_option("--report", options.report, "Write the run as a page to look at to this HTML file; - = stdout");
 }
 
+// A sheet is all that it makes.
+void check_gallery(const StadiumOptions& options) {
+    if (!options.gallery) return;
+    if (options.png.empty()) throw wrong_argument("--gallery", "no --png", "--png OUT for the sheet");
+    for (const auto& [option, path] : {Place{"--trace", options.trace},
+                                       {"--summary", options.summary},
+                                       {"--report", options.report},
+                                       {"--png-dir", options.png_directory}})
+        if (!path.empty()) throw wrong_argument("--gallery", option, "no output but --png");
+}
+
 }  // namespace
 
 void add_stadium_options(CLI::App& app, StadiumOptions& options) {
@@ -160,8 +183,10 @@ void check(const StadiumOptions& options) {
     if (options.characters.size() > most_characters)
         throw wrong_argument("--character", std::to_string(options.characters.size()) + " files",
                              "at most " + std::to_string(most_characters));
+    check_gallery(options);
     std::vector<Place> inputs;
-    for (const std::filesystem::path& file : options.characters) inputs.push_back({"--character", file.string()});
+    const std::string from = options.gallery ? "--gallery" : "--character";
+    for (const CharacterFile& character : options.characters) inputs.push_back({from, character.file.string()});
     if (!scene::is_preset(options.camera)) inputs.push_back({"--camera", options.camera});
     const Place outputs[] = {{"--trace", options.trace},
                              {"--png", options.png},

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/point_cache.h"
+#include "apps/troupe.h"
 #include "sfsm/controller.h"
 #include "sfsm/decision.h"
 #include "sfsm/drawing.h"
@@ -21,7 +22,7 @@ namespace apps {
 
 struct StadiumOptions {
     std::int64_t people = 20000;  // [1, 1'000'000]
-    std::vector<std::filesystem::path> characters;
+    std::vector<CharacterFile> characters;
     sfsm::TargetSchedule target = sfsm::TargetSchedule::parse(sfsm::default_target);
     std::optional<sfsm::Drawing> draw;  // empty: whatever is faster
     std::string law = std::string(sfsm::law_names().front());
@@ -38,6 +39,7 @@ struct StadiumOptions {
     bool headless = false;
     bool fixed_step = false;
     bool strict = false;                                     // refuse characters of which anything would be lost
+    bool gallery = false;                                    // a sheet of the characters instead of a run
     std::string trace, png, png_directory, summary, report;  // paths; empty: none; "-": stdout
     std::int64_t png_every = 0;                              // [frames] 0: none
 };

@@ -17,11 +17,6 @@ namespace apps {
 
 namespace {
 
-void put_png(std::ostream& out, const render::Image& image) {
-    const std::vector<std::uint8_t> bytes = render::encode_png(image);
-    out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-}
-
 [[noreturn]] void fail_directory(const std::string& path, const std::string& reason) {
     throw std::runtime_error("cannot make directory " + path + ": " + reason);
 }
@@ -71,10 +66,15 @@ sfsm::Report report_of(std::span<const sfsm::TraceRow> rows, const std::map<std:
 
 }  // namespace
 
+void write_png(OutputFile& file, const render::Image& image) {
+    const std::vector<std::uint8_t> bytes = render::encode_png(image);
+    file.stream().write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    file.commit();
+}
+
 void write_png(const std::string& path, const render::Image& image) {
     OutputFile file(path);
-    put_png(file.stream(), image);
-    file.commit();
+    write_png(file, image);
 }
 
 StadiumOutputs::StadiumOutputs(const StadiumOptions& options) : options_(options) {
@@ -106,10 +106,7 @@ void StadiumOutputs::finish(std::span<const sfsm::TraceRow> rows, const std::map
         for (const sfsm::TraceRow& row : rows) sfsm::write_trace_row(trace_->stream(), row);
         trace_->commit();
     }
-    if (png_) {
-        put_png(png_->stream(), last_picture);
-        png_->commit();
-    }
+    if (png_) write_png(*png_, last_picture);
     if (summary_) {
         summary_->stream() << sfsm::summary_json(summary, settings, warnings);
         summary_->commit();

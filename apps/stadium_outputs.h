@@ -13,6 +13,7 @@
 
 namespace apps {
 
+void write_png(OutputFile& file, const render::Image& image);
 void write_png(const std::string& path, const render::Image& image);
 
 class StadiumOutputs {

@@ -43,7 +43,7 @@ std::vector<std::string> fields(const StadiumOptions& options) {
     };
     add(options.people);
     std::string characters;
-    for (const auto& file : options.characters) characters += file.string() + ' ';
+    for (const CharacterFile& character : options.characters) characters += character.file.string() + ' ';
     add(characters);
     add(options.target.text());
     add(options.law);
@@ -59,6 +59,7 @@ std::vector<std::string> fields(const StadiumOptions& options) {
     add(options.seed);
     add(options.headless);
     add(options.fixed_step);
+    add(options.gallery);
     for (const std::string& path :
          {options.trace, options.png, options.png_directory, options.summary, options.report}) {
         add(path);
@@ -111,7 +112,13 @@ TEST(StadiumOptions, EachReachesItsFieldAndNoOther) {
         {{"--people", "123"}, [](StadiumOptions& o) { o.people = 123; }},
         {{"--character", "a.glb", "--character", "b.obj"},
          [](StadiumOptions& o) {
-             o.characters = {"a.glb", "b.obj"};
+             o.characters = {{"a.glb"}, {"b.obj"}};
+         }},
+        {{"--gallery", "a.glb", "b.obj", "--png", "s.png"},
+         [](StadiumOptions& o) {
+             o.gallery = true;
+             o.characters = {{"a.glb"}, {"b.obj"}};
+             o.png = "s.png";
          }},
         {{"--target-ms", "20,30@4"}, [](StadiumOptions& o) { o.target = sfsm::TargetSchedule::parse("20,30@4"); }},
         {{"--law", "paper"}, [](StadiumOptions& o) { o.law = "paper"; }},

@@ -45,8 +45,8 @@ void expect_belongs_together(const apps::Stage& stage) {
 
 TEST(Stage, KnowsEachOfItsCharacters) {
     const tests::Directory directory;
-    const auto stage = apps::build_stage({tower(directory, 1), tower(directory, 20), tower(directory, 3)}, people, 1,
-                                         apps::PointCache(""), figures::by_opengl());
+    const auto stage = apps::build_stage({{tower(directory, 1)}, {tower(directory, 20)}, {tower(directory, 3)}}, people,
+                                         1, apps::PointCache(""), figures::by_opengl());
     ASSERT_EQ(stage->meshes.size(), 3u);
     EXPECT_EQ(stage->meshes[1].triangle_count(), 240u);
     expect_belongs_together(*stage);
@@ -57,7 +57,8 @@ TEST(Stage, KnowsEachOfItsCharacters) {
 
 TEST(Stage, HasMorePointsWhereTheyCostLess) {
     const tests::Directory directory;
-    const auto stage = apps::build_stage({tower(directory, 20)}, people, 1, apps::PointCache(""), figures::natively());
+    const auto stage =
+        apps::build_stage({{tower(directory, 20)}}, people, 1, apps::PointCache(""), figures::natively());
     EXPECT_EQ(stage->points[0].size(), figures::points_worth(240, figures::natively()));
     EXPECT_GT(stage->points[0].size(), 240u);
 }
