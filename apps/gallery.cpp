@@ -107,11 +107,11 @@ private:
     // Everybody at one scale, unless they need more room.
     render::View view_of(const Part& part, bool from_the_side) const {
         constexpr double away = 9, eye = 2.2, high = 2.6, middle = 1.05;  // [m]
+        constexpr double wide = high * picture_width / picture_height;
         const motion::Bounds& box = poses().clip_boxes[part.clip];
-        const glm::vec3 far = scale() * glm::max(glm::abs(box.min), glm::abs(box.max));
-        const double wide = high * picture_width / picture_height;
-        const double zoom = std::max({1.0, 2.2 * static_cast<double>(std::max(far.x, far.z)) / wide,
-                                      1.1 * static_cast<double>(scale() * (box.max.y - poses().floor)) / high});
+        const glm::dvec3 far = scale() * glm::max(glm::abs(box.min), glm::abs(box.max));
+        const double top = static_cast<double>(scale() * (box.max.y - poses().floor));
+        const double zoom = std::max({1.0, 2.2 * (from_the_side ? far.z : far.x) / wide, 1.1 * top / high});
         const double aside = from_the_side ? zoom * away : 0, ahead = from_the_side ? 0 : zoom * away;
         return render::make_view({{aside, zoom * eye, ahead}, {0, zoom * middle, 0}, 2 * std::atan(0.5 * high / away)},
                                  picture_width, picture_height);

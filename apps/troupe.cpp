@@ -1,6 +1,7 @@
 #include "apps/troupe.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "apps/interrupt.h"
@@ -12,6 +13,7 @@
 #include "pointsample/sample.h"
 #include "scene/cast.h"
 #include "scene/person.h"
+#include "scene/settle.h"
 
 namespace apps {
 
@@ -38,8 +40,7 @@ pointsample::PointModel sample_points(const model::Character& character, const s
     });
 }
 
-void add(Troupe& troupe, model::Character character, const Preparation& preparation) {
-    scene::Casting casting = scene::cast(character);
+void add(Troupe& troupe, model::Character character, scene::Casting casting, const Preparation& preparation) {
     pointsample::PointModel points = sample_points(character, casting.clips, preparation);
     throw_if_interrupted();
     ProgressBar bar("Posing " + character.name);
@@ -61,15 +62,22 @@ std::vector<figures::Figure> Troupe::figures() const {
 }
 
 void add_person(Troupe& troupe, const Preparation& preparation) {
-    add(troupe, scene::make_person(), preparation);
+    model::Character person = scene::make_person();
+    scene::Casting casting = scene::cast(person);
+    add(troupe, std::move(person), std::move(casting), preparation);
 }
 
 void add_character(Troupe& troupe, const CharacterFile& character, const Preparation& preparation) {
     model::Character loaded = model::load_mesh(character.file);
-    const std::vector<std::string> lost = lines_of(character.file, loaded.warnings);
+    scene::Casting casting = scene::cast(loaded);
+    std::vector<std::string> lost = lines_of(character.file, loaded.warnings);
+    std::ranges::copy(lines_of(character.file, casting.warnings), std::back_inserter(lost));
     say("stadium", lost, preparation.strict);
     troupe.warnings.insert(troupe.warnings.end(), lost.begin(), lost.end());
-    add(troupe, std::move(loaded), preparation);
+    scene::settle(loaded, casting);
+    add(troupe, std::move(loaded), std::move(casting), preparation);
+    troupe.poses.back().rest_height = scene::settled_height;
+    troupe.poses.back().floor = 0;
 }
 
 }  // namespace apps

@@ -47,8 +47,8 @@ struct Preparation {
     static constexpr std::size_t pose_byte_budget = std::size_t{256} << 20;
 };
 
-// The built-in person, or a file's character, becomes the troupe's last. Shows progress on a terminal. Throws what the
-// loaders throw.
+// The built-in person, or a file's character as scene::settle puts it, becomes the troupe's last. Shows progress on a
+// terminal. Throws what the loaders throw.
 void add_person(Troupe& troupe, const Preparation& preparation);
 void add_character(Troupe& troupe, const CharacterFile& character, const Preparation& preparation);
 

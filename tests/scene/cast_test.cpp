@@ -2,8 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
 #include "scene/person.h"
 #include "tests/scene/fake_cast.h"
+#include "tests/scene/stick.h"
 
 namespace {
 
@@ -15,11 +22,21 @@ model::Character with_clips(std::initializer_list<const char*> names) {
     return character;
 }
 
-// The name of the clip that a role plays while calm.
-std::string calm_clip(const model::Character& character, Role role) {
-    const scene::Casting casting = scene::cast(character);
+// The clip that a role plays while calm.
+model::Clip calm(const model::Character& character, Role role, std::span<const scene::ActWish> wishes = {}) {
+    const scene::Casting casting = scene::cast(character, wishes);
+    model::Character with_stills = character;
+    scene::add_stills(with_stills, casting);
     const std::uint8_t baked = casting.member.acts[static_cast<int>(role)].calm.at(0);
-    return character.clips.at(casting.clips.at(baked)).name;
+    return with_stills.clips.at(casting.clips.at(baked));
+}
+
+std::string calm_clip(const model::Character& character, Role role, std::span<const scene::ActWish> wishes = {}) {
+    return calm(character, role, wishes).name;
+}
+
+bool is_held(const model::Clip& clip) {
+    return clip.duration == 0 && clip.name.find(", held at ") != std::string::npos;
 }
 
 TEST(Cast, PersonSitsInTheStandsAndStandsElsewhere) {
@@ -41,9 +58,10 @@ TEST(Cast, MexicanWaveIsArmsUp) {
 
 TEST(Cast, FindsClipsInAnyCaseAndWithPrefixes) {
     const auto robot = with_clips({"Robot_Dance", "Robot_WalkJump", "Robot_Walking", "Robot_Running", "Robot_Sitting"});
-    EXPECT_EQ(calm_clip(robot, Role::spectator), "Robot_Walking");
+    EXPECT_EQ(calm_clip(robot, Role::spectator), "Robot_Sitting");
+    EXPECT_EQ(calm_clip(robot, Role::walker), "Robot_Walking");
     EXPECT_EQ(calm_clip(robot, Role::runner), "Robot_Running");
-    EXPECT_FALSE(scene::cast(robot).member.sits) << "another's sitting clip doesn't know our seats";
+    EXPECT_TRUE(scene::cast(robot).member.sits);
     const auto horse = with_clips({"AnimalArmature|Idle", "AnimalArmature|WALK"});
     EXPECT_EQ(calm_clip(horse, Role::walker), "AnimalArmature|WALK");
     EXPECT_EQ(calm_clip(horse, Role::runner), "AnimalArmature|WALK");
@@ -62,18 +80,18 @@ TEST(Cast, WalkersWalkAndRunnersRunIfTheyCanElseTheOtherElseTheyFly) {
     const auto all = with_clips({"Fly", "Run", "Walk"});
     EXPECT_EQ(calm_clip(all, Role::walker), "Walk");
     EXPECT_EQ(calm_clip(all, Role::runner), "Run");
-    EXPECT_EQ(calm_clip(all, Role::spectator), "Walk");
-    EXPECT_EQ(calm_clip(all, Role::standing), "Walk");
+    for (const Role role : {Role::spectator, Role::standing})
+        EXPECT_TRUE(is_held(calm(all, role))) << "walks, runs or flies on the spot";
     const auto no_walk = with_clips({"Idle", "Fly", "Run"});
     for (const Role role : {Role::walker, Role::runner}) EXPECT_EQ(calm_clip(no_walk, role), "Run");
     const auto bird = with_clips({"Idle", "Fly"});
     for (const Role role : {Role::walker, Role::runner}) EXPECT_EQ(calm_clip(bird, role), "Fly");
 }
 
-TEST(Cast, SittersStandElseIdleElseWalkWhereThereIsNoSeat) {
+TEST(Cast, SittersStandElseIdleElseWaitWhereThereIsNoSeat) {
     EXPECT_EQ(calm_clip(with_clips({"walk", "idle", "stand", "sit"}), Role::standing), "stand");
     EXPECT_EQ(calm_clip(with_clips({"walk", "idle", "sit"}), Role::standing), "idle");
-    EXPECT_EQ(calm_clip(with_clips({"wait", "walk", "sit"}), Role::standing), "walk");
+    EXPECT_EQ(calm_clip(with_clips({"walk", "wait", "sit"}), Role::standing), "wait");
     EXPECT_EQ(calm_clip(with_clips({"walk", "idle", "stand", "Sit"}), Role::spectator), "Sit");
 }
 
@@ -84,7 +102,7 @@ TEST(Cast, SpectatorsCheerClapAndWaveInThatOrderAsFarAsTheyCan) {
     EXPECT_EQ(excited_clips(with_clips({"sit", "walk"})), Names{});
 }
 
-TEST(Cast, PlaysTheShortestNameThatFits) {
+TEST(Cast, PlaysWhatSaysTheLeastElse) {
     EXPECT_EQ(calm_clip(with_clips({"WalkJump", "Walking", "WalkHolding"}), Role::walker), "Walking");
     EXPECT_EQ(calm_clip(with_clips({"Catwalk", "Walk", "walk"}), Role::walker), "Walk");
 }
@@ -116,13 +134,103 @@ TEST(Cast, PlaysTheFirstClipWhereNoNameFits) {
 
 TEST(Cast, BakesEachClipOnceAndOnlyWhatIsPlayed) {
     const auto character = with_clips({"Death", "Walk", "Idle", "Run", "Cheer", "Jump"});
-    EXPECT_EQ(scene::cast(character).clips.size(), 3u);
+    EXPECT_EQ(scene::cast(character).clips.size(), 4u);
 }
 
 TEST(Cast, StatueHasOnePoseForEveryRole) {
     const scene::Casting casting = scene::cast(with_clips({}));
     EXPECT_TRUE(casting.clips.empty());
     for (const scene::Acts& acts : casting.member.acts) EXPECT_EQ(acts.calm, (std::vector<std::uint8_t>{0}));
+}
+
+// The largest distance between where any vertex is in two poses [m].
+float apart(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b) {
+    float farthest = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) farthest = std::max(farthest, glm::distance(a[i], b[i]));
+    return farthest;
+}
+
+TEST(Cast, SpectatorsStandInTheCalmestClipWhereNoneIsNamed) {
+    model::Character stick = tests::make_stick();
+    tests::add_gait(stick, "01", 1, 0.5f, {0, 0, 1.5f});
+    tests::add_sway(stick, "02", 0.3f);
+    tests::add_sway(stick, "03", 0.05f);
+    tests::add_sway(stick, "04", 0.2f);
+    for (const Role role : {Role::spectator, Role::standing}) EXPECT_EQ(calm_clip(stick, role), "03");
+    for (const Role role : {Role::walker, Role::runner}) EXPECT_EQ(calm_clip(stick, role), "01") << "it goes";
+    EXPECT_TRUE(scene::cast(stick).warnings.empty());
+}
+
+TEST(Cast, NobodyRunsOnTheSpotWhateverTheClipIsCalled) {
+    for (const char* name : {"Run", "mixamo.com", ""}) {
+        model::Character stick = tests::make_stick();
+        tests::add_gait(stick, name, 1, 0.6f, {0, 0, 3});
+        for (const Role role : {Role::spectator, Role::standing}) {
+            EXPECT_TRUE(is_held(calm(stick, role))) << name;
+        }
+        EXPECT_EQ(calm_clip(stick, Role::walker), name);
+        EXPECT_FALSE(scene::cast(stick).warnings.empty()) << "nobody is told";
+    }
+}
+
+TEST(Cast, HeldMomentsAreUpright) {
+    model::Character stick = tests::make_stick();
+    tests::add_gait(stick, "Run", 1, 0.9f);
+    const model::Clip clip = calm(stick, Role::spectator);
+    const motion::Bounds box = motion::bounds_of(tests::posed(stick, &clip, 0));
+    EXPECT_NEAR(box.size().y, tests::stick_height, 0.02f);
+    EXPECT_LT(box.size().z, 0.4f) << "in mid-stride";
+}
+
+TEST(Cast, NobodyStandsWithArmsSpreadWhileThereIsAnythingElse) {
+    for (const char* name : {"T-Pose", "TPose", "Take 001", "Idle"}) {
+        model::Character stick = tests::make_stick();
+        tests::add_t_pose(stick, name);
+        const float wide = motion::bounds_of(tests::posed(stick, &stick.clips[0], 0)).size().x;
+        EXPECT_EQ(calm_clip(stick, Role::spectator), name) << "there is nothing else";
+        tests::add_gait(stick, "Run", 1, 0.6f);
+        tests::export_as(stick, 100, {3, 0, 0});
+        for (const Role role : {Role::spectator, Role::standing, Role::walker, Role::runner}) {
+            const model::Clip clip = calm(stick, role);
+            EXPECT_LT(motion::bounds_of(tests::posed(stick, &clip, 0)).size().x, 100 * 0.6f * wide) << name;
+        }
+    }
+}
+
+TEST(Cast, HoldsTheEndOfAClipThatOnlySitsDown) {
+    model::Character stick = tests::make_stick();
+    tests::add_sitting(stick, "Robot_Sitting", true);
+    tests::add_sway(stick, "Robot_Idle", 0.02f);
+    EXPECT_TRUE(scene::cast(stick).member.sits);
+    const model::Clip clip = calm(stick, Role::spectator);
+    ASSERT_TRUE(is_held(clip));
+    EXPECT_LT(apart(tests::posed(stick, &clip, 0), tests::posed(stick, &stick.clips[0], 1)), 1e-3f);
+    tests::add_sitting(stick, "Robot_Sit", false);
+    EXPECT_EQ(calm_clip(stick, Role::spectator), "Robot_Sit");
+}
+
+TEST(Cast, DoesWhatItsUserWants) {
+    const auto character = with_clips({"Idle", "Walk", "Run", "Dance", "Cheer", "Sit"});
+    const std::vector<scene::ActWish> wishes{{scene::Deed::walk, "Dance"},
+                                             {scene::Deed::sit, "Cheer"},
+                                             {scene::Deed::clap, "Run"},
+                                             {scene::Deed::stand, "Walk"}};
+    EXPECT_EQ(calm_clip(character, Role::walker, wishes), "Dance");
+    EXPECT_EQ(calm_clip(character, Role::spectator, wishes), "Cheer");
+    EXPECT_EQ(calm_clip(character, Role::standing, wishes), "Walk") << "even what moves on";
+    EXPECT_EQ(calm_clip(character, Role::runner, wishes), "Run");
+    EXPECT_EQ(scene::cast(character, wishes).member.acts[static_cast<int>(Role::spectator)].excited.size(), 2u);
+    try {
+        scene::cast(character, std::vector<scene::ActWish>{{scene::Deed::sit, "Lounge"}});
+        ADD_FAILURE() << "took a clip that isn't there";
+    } catch (const std::runtime_error& error) {
+        const std::string text = error.what();
+        for (const char* part : {"'Lounge'", "sit", "'Idle'", "'Dance'"})
+            EXPECT_NE(text.find(part), std::string::npos) << text;
+        EXPECT_LT(text.size(), 200u);
+    }
+    EXPECT_THROW(scene::cast(with_clips({}), std::vector<scene::ActWish>{{scene::Deed::sit, "Sit"}}),
+                 std::runtime_error);
 }
 
 TEST(Room, SittersTakeSeats) {
