@@ -31,28 +31,6 @@ constexpr int least_parts = 4;          // a row is as wide as these, so that ti
 constexpr float person_height = 1.75f;  // [m]
 constexpr glm::u8vec3 paper{245, 245, 242}, ink{30, 30, 34}, alarm{190, 20, 20};
 
-// What a character does in a role.
-struct Part {
-    std::string role;
-    scene::Role as;
-    std::uint8_t clip;  // into PoseTable::clips
-};
-
-std::vector<Part> parts_of(const scene::CastMember& member) {
-    std::vector<Part> parts;
-    const auto add = [&](const char* role, scene::Role as, const std::vector<std::uint8_t>& clips) {
-        for (const std::uint8_t clip : clips) parts.push_back({role, as, clip});
-    };
-    using scene::Role;
-    const auto acts = [&](Role role) -> const scene::Acts& { return member.acts[static_cast<int>(role)]; };
-    add("spectator", Role::spectator, acts(Role::spectator).calm);
-    add("excited", Role::spectator, acts(Role::spectator).excited);
-    add("standing", Role::standing, acts(Role::standing).calm);
-    add("walker", Role::walker, acts(Role::walker).calm);
-    add("runner", Role::runner, acts(Role::runner).calm);
-    return parts;
-}
-
 // The floor, the pole and, for who sits, a seat as the stadium has it.
 scene::StaticMesh scenery(bool with_seat) {
     constexpr scene::Color light_tile = scene::painted(196, 196, 190), dark_tile = scene::painted(168, 168, 164),

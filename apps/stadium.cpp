@@ -59,7 +59,7 @@ public:
           path_from_file_(load_path(options.camera)),
           canvas_(options),
           stage_(build_stage(options.characters, options.people, options.seed, PointCache(options.cache),
-                             canvas_.models_way(), options.strict)),
+                             canvas_.models_way(), options.strict, options.verbose)),
           path_(path_from_file_ ? *path_from_file_ : stage_->place.cameras.named(options.camera)),
           clock_(options.fixed_step || !canvas_.window()),
           width_(options.width),
@@ -260,10 +260,7 @@ private:
 
     std::string character_names() const {
         if (options_.characters.empty()) return stage_->cast.front().name;
-        std::string names;
-        for (const CharacterFile& character : options_.characters)
-            names += (names.empty() ? "" : " ") + character.file.string();
-        return names;
+        return text_of(options_.characters);
     }
 
     const StadiumOptions& options_;
@@ -289,7 +286,8 @@ void show_gallery(const StadiumOptions& options) {
     const Gallery gallery = draw_gallery(options.characters, {.seed = options.seed,
                                                               .cache = PointCache(options.cache),
                                                               .way = figures::natively(),
-                                                              .strict = options.strict});
+                                                              .strict = options.strict,
+                                                              .verbose = options.verbose});
     write_png(file, gallery.sheet);
     if (gallery.failed > 0)
         throw std::runtime_error(std::to_string(gallery.failed) + " of " + std::to_string(options.characters.size()) +

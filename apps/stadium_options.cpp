@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <limits>
+#include <system_error>
 
 #include "apps/places.h"
 #include "apps/program.h"
 #include "scene/cameras.h"
+#include "sfsm/number_text.h"
 
 namespace apps {
 
@@ -21,6 +24,7 @@ constexpr const char* examples = R"(Examples:
   stadium --headless --camera close --frames 1 --state 0 --png close.png
   stadium --headless --law paper --target-ms 1000,300@30,95@100 --frames 200 --trace t.csv --summary -
   stadium --character Fox.glb --character CesiumMan.glb
+  stadium --character Fox.glb:3 --act stand=Survey --character CesiumMan.glb:1 --turn 90 --verbose
   stadium --gallery Fox.glb CesiumMan.glb --png sheet.png
 
 In the window: W A S D, E, Q and a dragged mouse fly (shift: faster), 1 to 5 choose a camera, + and - change the
@@ -60,6 +64,78 @@ void set_state(StadiumOptions& options, const std::string& text) {
     options.state = static_cast<sfsm::State>(text[0] - '0');
 }
 
+// "FILE:W" has a weight, unless a file is called just that.
+CharacterFile character_of(const std::string& option, const std::string& text) {
+    constexpr double heaviest = 1e6;
+    const std::size_t colon = text.rfind(':');
+    std::error_code ignored;
+    if (colon == std::string::npos || std::filesystem::exists(text, ignored)) return {text};
+    double weight = 0;
+    const auto [end, error] = std::from_chars(text.data() + colon + 1, text.data() + text.size(), weight);
+    if (error != std::errc() || end != text.data() + text.size()) return {text};
+    if (!(weight > 0 && weight <= heaviest))
+        throw wrong_argument(option, "'" + text + "'", "FILE:WEIGHT with a weight over 0 and at most 1000000");
+    return {text.substr(0, colon), weight};
+}
+
+// Whom an option that follows a character is about.
+CharacterFile& last_of(StadiumOptions& options, const std::string& option) {
+    if (options.characters.empty())
+        throw wrong_argument(option, "no character before it", "--character FILE before it");
+    return options.characters.back();
+}
+
+void turn_last(StadiumOptions& options, const std::string& text) {
+    constexpr double most = 360;  // [degrees]
+    double turn = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), turn);
+    if (error != std::errc() || end != text.data() + text.size() || !(std::abs(turn) <= most))
+        throw wrong_argument("--turn", "'" + text + "'", "degrees from -360 to 360");
+    last_of(options, "--turn").turn = turn;
+}
+
+void add_act(StadiumOptions& options, const std::string& text) {
+    const std::size_t equals = text.find('=');
+    const auto named = std::ranges::find(scene::deed_names, std::string_view(text).substr(0, equals));
+    if (equals == std::string::npos || named == scene::deed_names.end()) {
+        std::string names;
+        for (const std::string_view name : scene::deed_names) names.append(names.empty() ? "" : ", ").append(name);
+        throw wrong_argument("--act", "'" + text + "'", "ACT=CLIP with one of " + names);
+    }
+    const auto deed = static_cast<scene::Deed>(named - scene::deed_names.begin());
+    last_of(options, "--act").acts.push_back({deed, text.substr(equals + 1)});
+}
+
+// They are obeyed one by one as they come, since --turn and --act belong to the character before them.
+void add_character_options(CLI::App& app, StadiumOptions& options) {
+    const auto add_files = [&](const std::string& option, const std::vector<std::string>& files) {
+        for (const std::string& file : files) options.characters.push_back(character_of(option, file));
+    };
+    app.add_option_function<std::vector<std::string>>(
+           "--character", [add_files](const std::vector<std::string>& files) { add_files("--character", files); },
+           "glTF, GLB, OBJ or PLY file to fill the stadium with; several mix, FILE:3 three times as often as FILE:1")
+        ->trigger_on_parse();
+    app.add_option_function<std::string>(
+           "--turn", [&](const std::string& text) { turn_last(options, text); },
+           "Degrees, counter-clockwise from above, that turn the character before it to face +z")
+        ->trigger_on_parse();
+    app.add_option_function<std::string>(
+           "--act", [&](const std::string& text) { add_act(options, text); },
+           "ACT=CLIP: which clip the character before it stands, walks, runs, sits, cheers, claps or waves by (stand, "
+           "walk, run, sit, cheer, clap, wave)")
+        ->trigger_on_parse();
+    app.add_flag("--verbose", options.verbose, "Say which clip each character plays in which role");
+    app.add_option_function<std::vector<std::string>>(
+           "--gallery",
+           [&options, add_files](const std::vector<std::string>& files) {
+               options.gallery = true;
+               add_files("--gallery", files);
+           },
+           "Instead of a run, write a sheet of these characters to --png: each in each role from two sides, as "
+           "triangles and as points. What can't be read is named in it, and the exit code is 1")
+        ->trigger_on_parse();
+}
+
 void add_scene_options(CLI::App& app, StadiumOptions& options) {
     constexpr std::uint64_t any = std::numeric_limits<std::uint64_t>::max();
     app.add_option("--people", options.people,
@@ -68,19 +144,7 @@ void add_scene_options(CLI::App& app, StadiumOptions& options) {
         ->capture_default_str();
     app.add_option("--pour-in", options.pour_in, "Seconds in which the people come in (default: all are there)")
         ->check(number_over(0, 1e6));
-    const auto add_files = [&](const std::vector<std::string>& files) {
-        for (const std::string& file : files) options.characters.push_back({file});
-    };
-    app.add_option_function<std::vector<std::string>>(
-        "--character", add_files, "glTF, GLB, OBJ or PLY file to fill the stadium with; several mix");
-    app.add_option_function<std::vector<std::string>>(
-        "--gallery",
-        [&, add_files](const std::vector<std::string>& files) {
-            options.gallery = true;
-            add_files(files);
-        },
-        "Instead of a run, write a sheet of these characters to --png: each in each role from two sides, as "
-        "triangles and as points. What can't be read is named in it, and the exit code is 1");
+    add_character_options(app, options);
     app.add_flag("--strict", options.strict, "Refuse characters of which anything would be lost, instead of warning");
     app.add_option("--camera", options.camera, "still, close, medium, remote, roam or a FILE.json with keys")
         ->capture_default_str();
@@ -157,6 +221,19 @@ void check_gallery(const StadiumOptions& options) {
 }
 
 }  // namespace
+
+std::string text_of(const std::vector<CharacterFile>& characters) {
+    std::string text, before;
+    for (const CharacterFile& character : characters) {
+        text += before + character.file.string();
+        if (character.weight != 1) text += ":" + sfsm::number_text(character.weight);
+        if (character.turn != 0) text += " --turn " + sfsm::number_text(character.turn);
+        for (const scene::ActWish& act : character.acts)
+            text += " --act " + std::string(scene::name_of(act.deed)) + "=" + act.clip;
+        before = character.turn != 0 || !character.acts.empty() ? " --character " : " ";
+    }
+    return text;
+}
 
 void add_stadium_options(CLI::App& app, StadiumOptions& options) {
     describe(app, examples);

@@ -39,6 +39,7 @@ struct StadiumOptions {
     bool headless = false;
     bool fixed_step = false;
     bool strict = false;                                     // refuse characters of which anything would be lost
+    bool verbose = false;                                    // say which clips characters play
     bool gallery = false;                                    // a sheet of the characters instead of a run
     std::string trace, png, png_directory, summary, report;  // paths; empty: none; "-": stdout
     std::int64_t png_every = 0;                              // [frames] 0: none
@@ -46,6 +47,10 @@ struct StadiumOptions {
 
 // Adds the options to `app`; parsing fills `options`, which must stay where it is.
 void add_stadium_options(CLI::App& app, StadiumOptions& options);
+
+// Characters as they follow --character: "A.glb:3 --turn 90 --act walk=Run --character B.glb", without what isn't asked
+// for.
+std::string text_of(const std::vector<CharacterFile>& characters);
 
 // The rules between options. Throws std::invalid_argument with one line.
 void check(const StadiumOptions& options);

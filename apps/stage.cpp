@@ -7,9 +7,10 @@
 namespace apps {
 
 std::unique_ptr<Stage> build_stage(const std::vector<CharacterFile>& characters, std::int64_t people,
-                                   std::uint64_t seed, const PointCache& cache, const figures::Way& way, bool strict) {
+                                   std::uint64_t seed, const PointCache& cache, const figures::Way& way, bool strict,
+                                   bool verbose) {
     auto stage = std::make_unique<Stage>();
-    Preparation preparation{.seed = seed, .cache = cache, .way = way, .strict = strict};
+    Preparation preparation{.seed = seed, .cache = cache, .way = way, .strict = strict, .verbose = verbose};
     if (characters.empty()) add_person(*stage, preparation);
     for (const CharacterFile& character : characters) {
         preparation.byte_budget = Preparation::pose_byte_budget / characters.size();
@@ -21,7 +22,9 @@ std::unique_ptr<Stage> build_stage(const std::vector<CharacterFile>& characters,
         throw_if_interrupted();
         bar(fraction);
     };
-    stage->place = scene::make_stadium({people, stage->cast, stage->poses, seed, show});
+    std::vector<double> weights;
+    for (const CharacterFile& character : characters) weights.push_back(character.weight);
+    stage->place = scene::make_stadium({people, stage->cast, stage->poses, seed, show, weights});
     return stage;
 }
 

@@ -12,13 +12,17 @@
 #include "model/mesh.h"
 #include "motion/pose_table.h"
 #include "pointsample/point_model.h"
+#include "scene/cast.h"
 #include "scene/crowd.h"
 
 namespace apps {
 
-// A character of a user's.
+// A character of a user's, and what they want of it.
 struct CharacterFile {
     std::filesystem::path file;
+    double weight = 1;                   // > 0: of a mixture, against the others'
+    double turn = 0;                     // [degrees] scene::settle's: for who doesn't face +z
+    std::vector<scene::ActWish> acts{};  // what it does something by, instead of what is found
 
     bool operator==(const CharacterFile&) const = default;
 };
@@ -35,12 +39,21 @@ struct Troupe {
     std::vector<figures::Figure> figures() const;  // point into this
 };
 
+// What a character does in a role.
+struct Part {
+    std::string role;  // for people
+    scene::Role as;
+    std::uint8_t clip;  // into PoseTable::clips
+};
+std::vector<Part> parts_of(const scene::CastMember& member);
+
 // How characters are made ready.
 struct Preparation {
     std::uint64_t seed = 0;                      // of what chance decides
     PointCache cache{""};                        // of point models
     const figures::Way& way;                     // a character gets as many points as serve where they are drawn so
     bool strict = false;                         // a file of which anything would be lost is refused
+    bool verbose = false;                        // what a file's character does in its roles is said on stderr
     std::size_t byte_budget = pose_byte_budget;  // [bytes] for the poses of each, vertices and points together
 
     // [bytes] For all characters of a crowd; what a device holds is twice that.

@@ -17,6 +17,7 @@ struct Audience {
     std::span<const motion::PoseTable> poses;
     std::uint64_t seed = 0;                  // of all that chance decides
     std::function<void(double)> progress{};  // gets fractions in [0, 1] of the people who have their place
+    std::span<const double> weights{};  // > 0: how many there are of each character, against the others; none: as many
 };
 
 }  // namespace scene

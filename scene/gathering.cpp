@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -17,6 +19,7 @@ namespace {
 
 using sfsm::below;
 using sfsm::hash;
+using sfsm::upper_unit;
 
 // Room for rounding when a shader scales and turns a person in another order [m].
 constexpr float box_margin = 0.01f;
@@ -63,6 +66,10 @@ void reserve(Crowd& crowd, std::size_t people) {
 Gathering::Gathering(const Audience& of, std::shared_ptr<const Path> path) : audience(of) {
     assert(of.people >= 1 && of.people <= 10'000'000);
     assert(!of.cast.empty() && of.cast.size() <= 256 && of.cast.size() == of.poses.size());
+    assert(of.weights.empty() || of.weights.size() == of.cast.size());
+    const auto differs = [&](double weight) { return weight != of.weights.front(); };
+    if (std::ranges::any_of(of.weights, differs))
+        std::partial_sum(of.weights.begin(), of.weights.end(), std::back_inserter(sums_));
     crowd.path = std::move(path);
     reserve(crowd, static_cast<std::size_t>(of.people));
 }
@@ -72,7 +79,10 @@ std::uint64_t Gathering::bits(Salt salt, std::uint64_t which) const {
 }
 
 std::uint8_t Gathering::draw_character(std::uint64_t from) const {
-    return static_cast<std::uint8_t>(below(from, static_cast<std::uint32_t>(audience.cast.size())));
+    if (sums_.empty()) return static_cast<std::uint8_t>(below(from, static_cast<std::uint32_t>(audience.cast.size())));
+    const double share = static_cast<double>(upper_unit(from)) * sums_.back();
+    const auto found = std::ranges::upper_bound(sums_, share);
+    return static_cast<std::uint8_t>(std::min(found - sums_.begin(), std::ssize(sums_) - 1));
 }
 
 float Gathering::seat_lift(std::uint8_t character, float height) const {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "scene/audience.h"
 #include "scene/looks.h"
@@ -60,6 +61,7 @@ struct Gathering {
     void close_block();
 
 private:
+    std::vector<double> sums_;  // of the weights up to each character's; none if all are as many
     motion::Bounds reach_of(std::size_t person) const;
 };
 

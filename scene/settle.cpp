@@ -38,7 +38,7 @@ std::vector<Baked> measure_all(model::Character& character, const Casting& casti
 }
 
 // [model units] What becomes settled_height.
-float size_of(const BodyMotion& standing, const std::string& name) {
+float size_of(const BodyMotion& standing) {
     constexpr float lying = 2.5f;  // times as long as high
     const glm::vec3 size = [&] {
         std::vector<float> x, z;
@@ -53,7 +53,7 @@ float size_of(const BodyMotion& standing, const std::string& name) {
     const float longest = std::max(size.x, size.z);
     const float height = longest > lying * size.y ? longest : size.y;
     if (!(height > 0) || !std::isfinite(height))
-        throw std::runtime_error(name + ": found a body without any extent; expected one to stand on its feet");
+        throw std::runtime_error("found a body without any extent; expected one to stand on its feet");
     return height;
 }
 
@@ -98,10 +98,13 @@ struct Seat {
     float back;     // z
 };
 
-// What the hindmost two fifths of the body, arms and knees apart, rest on.
+// What the hindmost two fifths of the body below the shoulders, arms and knees apart, rest on: heads and hats may be as
+// deep as the rest.
 Seat find_seat(const model::Character& character, const Baked& sitting, const Frame& frame) {
     constexpr double most_under = 0.1, most_behind = 0.02;  // of the area
-    constexpr float hind = 0.4f, inner = 0.3f;              // of how long and how wide it is
+    constexpr float below_shoulders = 0.55f;
+    const float floor = frame.scale * sitting.motion.floor();
+    constexpr float hind = 0.4f, inner = 0.3f;  // of how long and how wide it is
     motion::Pose pose;
     std::vector<glm::vec3> positions, normals;
     motion::evaluate(character, *sitting.clip, 0.5 * sitting.motion.times.back(), pose);
@@ -115,7 +118,9 @@ Seat find_seat(const model::Character& character, const Baked& sitting, const Fr
     const std::vector<std::uint32_t>& indices = character.mesh.indices;
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
         const glm::vec3 a = positions[indices[i]], b = positions[indices[i + 1]], c = positions[indices[i + 2]];
-        pieces.push_back({(a + b + c) / 3.0f, glm::length(glm::dvec3(glm::cross(b - a, c - a)))});
+        const glm::vec3 middle = (a + b + c) / 3.0f;
+        if (middle.y < floor + below_shoulders * frame.scale * sitting.motion.height())
+            pieces.push_back({middle, glm::length(glm::dvec3(glm::cross(b - a, c - a)))});
     }
     const auto quantile = [](std::vector<Piece>& of, int axis, double share) {
         std::ranges::sort(of, {}, [axis](const Piece& piece) { return piece.at[axis]; });
@@ -133,7 +138,6 @@ Seat find_seat(const model::Character& character, const Baked& sitting, const Fr
         const bool is_inner = std::fabs(piece.at.x - 0.5f * (left + right)) < inner * (right - left);
         if (is_hind && is_inner) trunk.push_back(piece);
     }
-    const float floor = frame.scale * sitting.motion.floor();
     return {quantile(trunk, 1, most_under) - floor, back};
 }
 
@@ -247,7 +251,7 @@ void settle(model::Character& character, Casting& casting, double turn) {
     casting.stills.clear();
     const std::vector<Baked> all = measure_all(character, casting);
     const auto angle = static_cast<float>(turn * pi / 180);
-    const Frame frame{settled_height / size_of(all.front().motion, character.name),
+    const Frame frame{settled_height / size_of(all.front().motion),
                       glm::mat3(glm::rotate(glm::mat4(1.0f), angle, glm::vec3(0, 1, 0)))};
     std::vector<std::vector<glm::vec3>> offsets;
     for (const Baked& one : all) offsets.push_back(staying(one.motion, frame));

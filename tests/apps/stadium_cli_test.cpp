@@ -4,11 +4,13 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <fstream>
 #include <string>
 #include <vector>
 
 #include "tests/apps/trace_text.h"
 #include "tests/command.h"
+#include "tests/model/gltf_builder.h"
 
 namespace {
 
@@ -322,6 +324,38 @@ TEST(StadiumProgram, HelpShowsExamples) {
         EXPECT_EQ(version.code, 0);
         EXPECT_TRUE(version.out.starts_with(program + " 0.")) << version.out;
     }
+}
+
+// A file whose one clip, "Run", moves its square by a metre.
+void write_runner(const std::string& path) {
+    tests::GltfBuilder builder = tests::make_square();
+    const int times = builder.scalars({0, 1}), way = builder.vec3({0, 0, 0, 0, 0, 1});
+    builder.document["animations"] = {
+        {{"name", "Run"},
+         {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}},
+         {"samplers", {{{"input", times}, {"output", way}}}}}};
+    std::ofstream(path, std::ios::binary) << builder.glb();
+}
+
+TEST(StadiumProgram, TellsWhoDoesWhatAndRepeatsWhatWasWanted) {
+    const tests::Directory directory;
+    const std::string a = directory / "a.glb", b = directory / "b.glb";
+    for (const std::string& file : {a, b}) write_runner(file);
+    const std::string wanted = a + ":3 --turn 90 --act walk=Run --character " + b;
+    const tests::Outcome outcome =
+        tests::run("stadium", small + "--frames 1 --verbose --trace - --character " + wanted);
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("# character=" + wanted + "\n"), std::string::npos) << outcome.out.substr(0, 900);
+    EXPECT_NE(outcome.err.find("a.glb: spectator 'Run, held at "), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("walker 'Run' at 1.75 m/s"), std::string::npos) << outcome.err;
+    EXPECT_EQ(tests::run("stadium", small + "--frames 1 --trace - --strict --character " + a).code, 1)
+        << "nobody has a clip to stand in";
+    const tests::Outcome unknown = tests::run("stadium", small + "--frames 1 --character " + a + " --act sit=Lounge");
+    EXPECT_EQ(unknown.code, 1);
+    EXPECT_TRUE(tests::one_line(unknown.err)) << unknown.err;
+    for (const char* part : {"a.glb", "'Lounge'", "'Run'"})
+        EXPECT_NE(unknown.err.find(part), std::string::npos) << unknown.err;
+    expect_usage_error(small + "--character " + a + " --act fly=Run", "stand, walk, run, sit, cheer, clap, wave");
 }
 
 }  // namespace

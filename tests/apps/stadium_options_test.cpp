@@ -5,6 +5,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <sstream>
 #include <vector>
@@ -42,9 +44,7 @@ std::vector<std::string> fields(const StadiumOptions& options) {
         texts.push_back(text.str());
     };
     add(options.people);
-    std::string characters;
-    for (const CharacterFile& character : options.characters) characters += character.file.string() + ' ';
-    add(characters);
+    add(text_of(options.characters));
     add(options.target.text());
     add(options.law);
     add(options.state ? static_cast<int>(*options.state) : -1);
@@ -60,6 +60,7 @@ std::vector<std::string> fields(const StadiumOptions& options) {
     add(options.headless);
     add(options.fixed_step);
     add(options.gallery);
+    add(options.verbose);
     for (const std::string& path :
          {options.trace, options.png, options.png_directory, options.summary, options.report}) {
         add(path);
@@ -113,6 +114,14 @@ TEST(StadiumOptions, EachReachesItsFieldAndNoOther) {
         {{"--character", "a.glb", "--character", "b.obj"},
          [](StadiumOptions& o) {
              o.characters = {{"a.glb"}, {"b.obj"}};
+         }},
+        {{"--verbose"}, [](StadiumOptions& o) { o.verbose = true; }},
+        {{"--character", "a.glb:3", "--turn", "-90", "--act", "sit=Sit|Chair=1", "--character", "b.glb:0.5", "c:d.glb",
+          "--act", "walk=Run", "--act", "cheer=", "--turn", "12.5"},
+         [](StadiumOptions& o) {
+             o.characters = {{"a.glb", 3, -90, {{scene::Deed::sit, "Sit|Chair=1"}}},
+                             {"b.glb", 0.5},
+                             {"c:d.glb", 1, 12.5, {{scene::Deed::walk, "Run"}, {scene::Deed::cheer, ""}}}};
          }},
         {{"--gallery", "a.glb", "b.obj", "--png", "s.png"},
          [](StadiumOptions& o) {
@@ -229,6 +238,28 @@ TEST(StadiumOptions, RulesBetweenThemHoldBothWays) {
     EXPECT_TRUE(is_taken(characters));
     characters.insert(characters.end(), {"--character", "a.glb"});
     EXPECT_FALSE(is_taken(characters));
+}
+
+TEST(StadiumOptions, WhatIsWantedOfACharacterFollowsIt) {
+    EXPECT_TRUE(is_taken({"--character", "a.glb", "--turn", "90"}));
+    EXPECT_TRUE(is_taken({"--gallery", "a.glb", "--turn", "90", "--png", "s.png"}));
+    EXPECT_FALSE(is_taken({"--turn", "90", "--character", "a.glb"})) << "nobody to turn";
+    EXPECT_FALSE(is_taken({"--act", "sit=Idle"}));
+    for (const char* turn : {"", "left", "361", "-400", "nan", "90deg"})
+        EXPECT_FALSE(is_taken({"--character", "a.glb", "--turn", turn})) << turn;
+    for (const char* act : {"", "sit", "fly=Fly", "Sit=Idle", "=Idle"})
+        EXPECT_FALSE(is_taken({"--character", "a.glb", "--act", act})) << act;
+    for (const char* file : {"a.glb:0", "a.glb:-1", "a.glb:nan", "a.glb:inf", "a.glb:1e7"})
+        EXPECT_FALSE(is_taken({"--character", file})) << file;
+}
+
+TEST(StadiumOptions, AFileMayHaveAColonInItsName) {
+    const std::string name = testing::TempDir() + "/weighed:3";
+    EXPECT_EQ(parsed({"--character", name}).characters.at(0).weight, 3) << "no such file";
+    std::ofstream(name) << "mesh";
+    EXPECT_EQ(parsed({"--character", name}).characters.at(0), (CharacterFile{name}));
+    EXPECT_EQ(parsed({"--character", name + ":2"}).characters.at(0), (CharacterFile{name, 2}));
+    std::filesystem::remove(name);
 }
 
 // Whatever two outputs, and whatever input, are one file.

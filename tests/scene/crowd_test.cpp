@@ -434,4 +434,28 @@ TEST(Arrival, GrowsEvenlyFromNobodyToEverybodyAndNobodyLeaves) {
     }
 }
 
+// How many there are of each character.
+std::vector<double> shares(const Crowd& crowd, std::size_t characters) {
+    std::vector<double> shares(characters, 0.0);
+    for (const std::uint8_t character : crowd.character)
+        shares.at(character) += 1.0 / static_cast<double>(crowd.size());
+    return shares;
+}
+
+TEST(Crowd, MixesItsCharactersByWeight) {
+    tests::FakeCast cast = tests::sitters_and_standers();
+    tests::add_sitter(cast);
+    const scene::StadiumPlan plan = scene::plan_stadium(20'000);
+    const auto mixed = [&](const std::vector<double>& weights) {
+        return scene::populate(plan, {20'000, cast.members, cast.poses, 1, {}, weights});
+    };
+    const std::vector<double> weights{3, 0.5, 1.5};
+    const std::vector<double> found = shares(mixed(weights), 3);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(found[i], weights[i] / 5, 0.02) << i;
+    EXPECT_NEAR(shares(mixed({1, 1e6, 1}), 3)[1], 1, 1e-3);
+    const std::vector<std::uint8_t> even = mixed({}).character;
+    EXPECT_EQ(mixed({2, 2, 2}).character, even) << "equal weights are none";
+    for (const double share : shares(mixed({}), 3)) EXPECT_NEAR(share, 1.0 / 3, 0.02);
+}
+
 }  // namespace
