@@ -16,7 +16,8 @@ struct Room {
 };
 
 // The room that the widest and the deepest of the cast need while they watch: a seat if all sit, else a place to stand.
-// Characters much longer than tall (a fox) still overlap. `poses`: one a member.
+// Sitters as wide and deep as people have seats of a person's size; others wider ones. Characters much longer than tall
+// (a fox) still overlap. `poses`: one a member.
 Room room_for(std::span<const CastMember> cast, std::span<const motion::PoseTable> poses);
 
 }  // namespace scene

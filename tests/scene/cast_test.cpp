@@ -233,11 +233,26 @@ TEST(Cast, DoesWhatItsUserWants) {
                  std::runtime_error);
 }
 
+constexpr motion::Bounds seated_person{{-0.3f, 0, -0.2f}, {0.3f, 1.4f, 0.5f}};  // [m]
+
 TEST(Room, SittersTakeSeats) {
-    const tests::FakeCast cast = tests::sitters();
+    tests::FakeCast cast = tests::sitters();
+    cast.poses[0].clip_boxes[tests::clip_sit] = seated_person;
     const scene::Room room = scene::room_for(cast.members, cast.poses);
     EXPECT_TRUE(room.seats);
     EXPECT_EQ(room.width, scene::Room{}.width);
+}
+
+TEST(Room, SeatsAreAsWideAsWhoIsMuchWiderThanAPerson) {
+    tests::FakeCast cast = tests::sitters();
+    const std::size_t calm = cast.members[0].acts[static_cast<int>(Role::spectator)].calm.front();
+    cast.poses[0].clip_boxes[calm] = {{-0.4f, 0, -0.3f}, {0.4f, 1.2f, 0.6f}};
+    EXPECT_EQ(scene::room_for(cast.members, cast.poses).width, scene::Room{}.width) << "elbows";
+    cast.poses[0].clip_boxes[calm] = {{-0.7f, 0, -0.5f}, {0.7f, 1.2f, 0.7f}};
+    const scene::Room room = scene::room_for(cast.members, cast.poses);
+    EXPECT_TRUE(room.seats);
+    EXPECT_NEAR(room.width, 1.4f * 1.7f / 1.75f, 1e-5f);
+    EXPECT_NEAR(room.depth, 1.2f * 1.7f / 1.75f, 1e-5f);
 }
 
 TEST(Room, TerracesAreAsWideAndDeepAsTheirCast) {
@@ -259,6 +274,7 @@ TEST(Room, TerracesAreAsWideAndDeepAsTheirCast) {
 TEST(Room, IsWhatTheWidestAndTheDeepestNeedWhileTheyWatch) {
     constexpr float average = 1.7f;  // [m]
     tests::FakeCast cast = tests::sitters();
+    cast.poses[0].clip_boxes[tests::clip_sit] = seated_person;
     for (int i = 0; i < 3; ++i) tests::add_stander(cast);
     const motion::Bounds slim{{-0.2f, 0, -0.2f}, {0.2f, 2, 0.2f}}, wide{{-0.6f, 0, -0.3f}, {0.6f, 2, 0.3f}},
         deep{{-0.3f, 0, -0.9f}, {0.3f, 2, 0.9f}}, huge{{-9, 0, -9}, {9, 2, 9}};
