@@ -10,6 +10,7 @@
 #include "apps/warnings.h"
 #include "model/input_file.h"
 #include "model/io/mesh_file.h"
+#include "model/sides.h"
 #include "pointsample/model_key.h"
 #include "pointsample/posed_mesh.h"
 #include "pointsample/sample.h"
@@ -101,6 +102,7 @@ void add_person(Troupe& troupe, const Preparation& preparation) {
 
 void add_character(Troupe& troupe, const CharacterFile& character, const Preparation& preparation) {
     model::Character loaded = model::load_mesh(character.file);
+    model::split_sides(loaded.mesh);
     scene::Casting casting = model::with_name(character.file, [&] { return scene::cast(loaded, character.acts); });
     std::vector<std::string> lost = lines_of(character.file, loaded.warnings);
     std::ranges::copy(lines_of(character.file, casting.warnings), std::back_inserter(lost));
