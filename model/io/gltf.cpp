@@ -6,13 +6,13 @@ namespace model {
 namespace {
 
 Character load(const std::filesystem::path& path) {
-    GltfFile file = open_gltf(path);
     Character character;
+    GltfFile file = open_gltf(path, character.warnings);
     character.name = path.stem().string();
     const NodeOrder nodes = build_nodes(file, character.skeleton);
     build_mesh(file, nodes, character);
     if (character.mesh.indices.empty()) fail("no triangles", "a mesh in the default scene");
-    build_clips(file, nodes, character.clips);
+    build_clips(file, nodes, character);
     return character;
 }
 

@@ -8,10 +8,17 @@
 namespace model {
 
 // All triangles of the file's default scene, and all clips.
-// - Read: parts, skins, rigid parts on nodes, morph targets, base colour factors and textures. Alpha means nothing.
-// - Strips and fans become triangles. Missing normals are computed, weighted by area.
+// - Read: parts, skins, rigid parts on nodes, morph targets, and of materials: base colours, samplers, alpha, sides and
+//   light of their own (KHR_materials_unlit, _emissive_strength, _pbrSpecularGlossiness, KHR_texture_transform).
+// - Alpha MASK cuts out; BLEND does at one half, and is said. OPAQUE alpha means nothing.
+// - Strips and fans become triangles. Without normals triangles are flat, and vertices between them part.
 // - Skinned vertices ignore their node's transform, as glTF 2.0 says. Units and axes stay the file's (y up).
-// - Refused: required extensions, but for KHR_texture_transform, KHR_materials_unlit and KHR_mesh_quantization.
+// - Left out and said (Character::warnings): textures that can't be had, clips that can't be played, channels that
+//   move no node, extensions of clips, emissive textures that are read unlike the base colour's.
+// - Refused by name: glTF 1.0, and required extensions that change the shape or can't be read. Those of looks and
+//   lights alone are accepted.
+// - Data URIs of any type; names in any case, with either slash, percent-encoded or not (file_finder.h). Buffers may be
+//   longer than they say, and GLB may have chunks of others, or none but JSON.
 // - Memory is bounded by the file's size and a few hundred megabytes: at most 2 GiB of buffers, 2^26 texels, and a
 //   million vertices, indices and keys more than there are bytes of buffer.
 // Throws std::runtime_error with one line: the file, what was found and what was expected.

@@ -41,19 +41,14 @@ struct Run {
 // `count` elements of `size` bytes at `offset` in a buffer view, all inside it; `accessor` is for the message.
 Run run_of(const GltfFile& file, int view_index, std::size_t offset, std::size_t count, std::size_t size,
            int accessor) {
-    if (view_index < 0 || static_cast<std::size_t>(view_index) >= file.model.bufferViews.size())
-        fail("buffer view " + std::to_string(view_index) + " of " + name_of(accessor), "one that exists");
-    const tinygltf::BufferView& view = file.model.bufferViews[static_cast<std::size_t>(view_index)];
-    if (view.buffer < 0 || static_cast<std::size_t>(view.buffer) >= file.model.buffers.size())
-        fail("buffer " + std::to_string(view.buffer) + " of " + name_of(accessor), "one that exists");
-    const std::vector<unsigned char>& data = file.model.buffers[static_cast<std::size_t>(view.buffer)].data;
-    const std::size_t stride = view.byteStride == 0 ? size : view.byteStride;
+    const std::span<const unsigned char> bytes = bytes_of_view(file, view_index, name_of(accessor));
+    const std::size_t byte_stride = file.model.bufferViews[static_cast<std::size_t>(view_index)].byteStride;
+    const std::size_t stride = byte_stride == 0 ? size : byte_stride;
     const auto overrun = [&] { fail(name_of(accessor) + " beyond the end of its buffer", "it inside"); };
-    if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset) overrun();
-    if (offset > view.byteLength) overrun();
-    const std::size_t room = view.byteLength - offset;
+    if (offset > bytes.size()) overrun();
+    const std::size_t room = bytes.size() - offset;
     if (count > 0 && (room < size || (room - size) / stride < count - 1)) overrun();
-    return {data.data() + view.byteOffset + offset, stride};
+    return {bytes.data() + offset, stride};
 }
 
 std::uint32_t read_unsigned(const unsigned char* bytes, int type) {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <stdexcept>
 
 #include "model/io/gltf_file.h"
 
@@ -82,9 +83,16 @@ Clip read_clip(GltfFile& file, const tinygltf::Animation& animation, const NodeO
 
 }  // namespace
 
-void build_clips(GltfFile& file, const NodeOrder& nodes, std::vector<Clip>& clips) {
-    for (const tinygltf::Animation& animation : file.model.animations)
-        clips.push_back(read_clip(file, animation, nodes));
+void build_clips(GltfFile& file, const NodeOrder& nodes, Character& character) {
+    for (const tinygltf::Animation& animation : file.model.animations) {
+        try {
+            character.clips.push_back(read_clip(file, animation, nodes));
+        } catch (const BudgetError&) {
+            throw;
+        } catch (const std::runtime_error&) {
+            character.warnings.add("clip with keys that can't be played, left out", animation.name);
+        }
+    }
 }
 
 }  // namespace model

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <map>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -17,13 +18,20 @@
 
 namespace model {
 
+// The whole file is refused, whatever was being read.
+struct BudgetError : std::runtime_error {
+    using runtime_error::runtime_error;
+};
+
 // How much a file may unfold to, so that a small file cannot claim all memory by naming one accessor a thousand times:
 // vertices, indices, keys and the like, a million and one for every byte of its buffers.
 class Budget {
 public:
     explicit Budget(std::size_t buffer_bytes) : left_(buffer_bytes + (std::size_t{1} << 20)) {}
     void spend(std::size_t elements) {
-        if (elements > left_) fail("more repeated or implied data than a file of this size should hold", "less");
+        if (elements > left_)
+            throw BudgetError(
+                "found more repeated or implied data than a file of this size should hold; expected less");
         left_ -= elements;
     }
 
@@ -34,13 +42,14 @@ private:
 struct GltfFile {
     tinygltf::Model model;
     Budget budget{0};
-
-    // The encoded bytes of an image; throws if they are missing.
-    std::span<const unsigned char> image_bytes(int image) const;
+    std::filesystem::path folder;  // that the file's own names are relative to
 };
 
-// Reads and checks; supports KHR_texture_transform, KHR_materials_unlit and KHR_mesh_quantization.
-GltfFile open_gltf(const std::filesystem::path& path);
+// Reads and checks all but images, which stay as names, data URIs and buffer views.
+GltfFile open_gltf(const std::filesystem::path& path, Warnings& warnings);
+
+// All of a buffer view, inside its buffer; throws unless it is. `user` is for the message.
+std::span<const unsigned char> bytes_of_view(const GltfFile& file, int view, const std::string& user);
 
 // Element access to one accessor, every bound checked when it is made. Sparse values are merged in.
 class Accessor {
@@ -79,20 +88,25 @@ NodeOrder build_nodes(const GltfFile& file, Skeleton& skeleton);
 // All meshes of the scene, and the palette that their vertices index.
 void build_mesh(GltfFile& file, const NodeOrder& nodes, Character& character);
 
-void build_clips(GltfFile& file, const NodeOrder& nodes, std::vector<Clip>& clips);
+// Clips and channels that can't be played are left out, and said.
+void build_clips(GltfFile& file, const NodeOrder& nodes, Character& character);
 
-// Base colour textures, each image decoded once.
+// Textures as materials name them, each image decoded once. What can't be had is said.
 class TextureSet {
 public:
     TextureSet(const GltfFile& file, Warnings& warnings);
 
-    // The id of the file's texture `texture`, or no_texture if it names none.
+    // The id of the file's texture `texture`, or no_texture if it names none that can be had.
     std::uint8_t id_of(int texture);
+    Sampler sampler_of(int texture) const;  // glTF's default if it names none
 
     std::vector<Texture> take() { return textures_.take(); }
 
 private:
+    std::uint8_t decode(int image);
+
     const GltfFile& file_;
+    Warnings& warnings_;
     MeshTextures textures_;
     std::map<int, std::uint8_t> id_of_image_;
 };

@@ -38,7 +38,6 @@ public:
         require(++objects_ <= most_objects, "more than " + std::to_string(most_objects) + " JSON objects", "fewer");
         if (depth_ != 3) return true;
         require(++listed_ <= most_listed, "more than " + std::to_string(most_listed) + " " + section_, "fewer");
-        buffer_has_uri_ = false;
         return true;
     }
 
@@ -48,16 +47,10 @@ public:
             listed_ = 0;
         }
         key_ = name;
-        if (depth_ != 3) return true;
-        if (section_ == "buffers" && name == "uri") buffer_has_uri_ = true;
-        require(section_ != "animations" || name != "extensions", "an extended animation",
-                "animations of plain glTF 2.0");
         return true;
     }
 
     bool end_object() override {
-        if (in_list("buffers") && !buffer_has_uri_)
-            require(++buffers_in_chunk_ <= 1, "two buffers without a uri", "at most one, for the binary chunk");
         --depth_;
         return true;
     }
@@ -90,9 +83,8 @@ private:
     }
 
     int depth_ = 0;
-    std::size_t objects_ = 0, listed_ = 0, buffers_in_chunk_ = 0;
+    std::size_t objects_ = 0, listed_ = 0;
     std::uint64_t buffer_bytes_ = 0;
-    bool buffer_has_uri_ = false;
     std::string section_, key_;
 };
 

@@ -1,5 +1,4 @@
-// What must hold of glTF's JSON before tinygltf may see it: it recurses over nested values, copies the binary chunk
-// once for every buffer, and copies an animation's extensions once for every sampler.
+// What must hold of glTF's JSON before tinygltf may see it: it recurses over nested values.
 #pragma once
 
 #include <string_view>
@@ -7,8 +6,8 @@
 namespace model {
 
 // Throws std::runtime_error, "found ...; expected ...", if `text` is not JSON, nests deeper than 64 levels, holds more
-// than a million objects or 131,072 in one top-level list, has two buffers in the binary chunk, declares buffers of
-// more than 2 GiB in all, or extends an animation. Needs no memory in proportion to the text.
+// than a million objects or 131,072 in one top-level list, or declares buffers of more than 2 GiB in all. Needs no
+// memory in proportion to the text.
 void check_gltf_json(std::string_view text);
 
 }  // namespace model

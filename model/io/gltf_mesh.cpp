@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -77,19 +78,107 @@ void apply_texture_transform(const tinygltf::ExtensionMap& extensions, Look& loo
                                   glm::vec3(offset, 1));
 }
 
-Look look_of(const GltfFile& file, int material, TextureSet& textures) {
+float number_of(const tinygltf::Value& object, const char* name, float fallback) {
+    if (!object.Has(name) || !object.Get(name).IsNumber()) return fallback;
+    const float number = static_cast<float>(object.Get(name).GetNumberAsDouble());
+    return std::isfinite(number) ? number : fallback;
+}
+
+const tinygltf::Value* extension_of(const tinygltf::ExtensionMap& extensions, const char* name) {
+    const auto found = extensions.find(name);
+    return found == extensions.end() || !found->second.IsObject() ? nullptr : &found->second;
+}
+
+// A texture as an extension names one.
+tinygltf::TextureInfo texture_info(const tinygltf::Value& object, const char* name) {
+    tinygltf::TextureInfo info;
+    if (!object.Has(name) || !object.Get(name).IsObject()) return info;
+    const tinygltf::Value& value = object.Get(name);
+    info.index = static_cast<int>(number_of(value, "index", -1));
+    info.texCoord = static_cast<int>(number_of(value, "texCoord", 0));
+    if (value.Has("extensions") && value.Get("extensions").IsObject())
+        for (const std::string& extension : value.Get("extensions").Keys())
+            info.extensions[extension] = value.Get("extensions").Get(extension);
+    return info;
+}
+
+// Where in it a texture is read.
+void place_texture(const tinygltf::TextureInfo& info, const TextureSet& textures, Look& look) {
+    look.material.sampler = textures.sampler_of(info.index);
+    look.uv_set = info.texCoord;
+    apply_texture_transform(info.extensions, look);
+}
+
+bool same_place(const Look& a, const Look& b) {
+    return a.uv_set == b.uv_set && a.uv_transform == b.uv_transform && a.material.sampler == b.material.sampler;
+}
+
+// The older model's diffuse colour where a material has that, else the metallic-roughness one's.
+void read_base_color(const tinygltf::Material& found, TextureSet& textures, Look& look) {
+    const tinygltf::Value* glossy = extension_of(found.extensions, "KHR_materials_pbrSpecularGlossiness");
+    const tinygltf::PbrMetallicRoughness& pbr = found.pbrMetallicRoughness;
+    for (std::size_t i = 0; i < 4; ++i) {
+        float& factor = look.factor[static_cast<int>(i)];
+        if (glossy != nullptr)
+            factor = number_at(*glossy, "diffuseFactor", i, 1);
+        else if (pbr.baseColorFactor.size() == 4)
+            factor = static_cast<float>(pbr.baseColorFactor[i]);
+    }
+    const tinygltf::TextureInfo info =
+        glossy != nullptr ? texture_info(*glossy, "diffuseTexture") : pbr.baseColorTexture;
+    look.material.texture = textures.id_of(info.index);
+    place_texture(info, textures, look);
+}
+
+// Of two textures that are read differently the one that glows is left out.
+void read_emission(const tinygltf::Material& found, TextureSet& textures, Warnings& warnings, Look& look) {
+    glm::vec3& emissive = look.material.emissive;
+    for (int i = 0; i < 3 && found.emissiveFactor.size() == 3; ++i)
+        emissive[i] = std::max(0.0f, static_cast<float>(found.emissiveFactor[static_cast<std::size_t>(i)]));
+    if (const auto* strength = extension_of(found.extensions, "KHR_materials_emissive_strength"))
+        emissive *= std::max(0.0f, number_of(*strength, "emissiveStrength", 1));
+    if (!std::isfinite(emissive.x + emissive.y + emissive.z)) emissive = glm::vec3(0.0f);
+    if (emissive == glm::vec3(0.0f) || found.emissiveTexture.index < 0) return;
+    Look own;
+    place_texture(found.emissiveTexture, textures, own);
+    const std::uint8_t texture = textures.id_of(found.emissiveTexture.index);
+    if (look.material.texture == no_texture) {
+        look.uv_set = own.uv_set;
+        look.uv_transform = own.uv_transform;
+        look.material.sampler = own.material.sampler;
+    }
+    if (texture != no_texture && same_place(own, look)) {
+        look.material.emissive_texture = texture;
+        return;
+    }
+    // Without its texture a glow would cover all that it leaves dark.
+    if (texture != no_texture) warnings.add("emissive texture read unlike the base colour's, left out", found.name);
+    emissive = glm::vec3(0.0f);
+}
+
+void read_alpha(const tinygltf::Material& found, Warnings& warnings, Look& look) {
+    if (found.alphaMode == "MASK") {
+        const float cutoff = static_cast<float>(found.alphaCutoff);
+        look.material.alpha_cutoff = std::isfinite(cutoff) ? std::max(cutoff, 0.0f) : 0.5f;
+    } else if (found.alphaMode == "BLEND") {
+        look.material.alpha_cutoff = 0.5f;
+        warnings.add("blended material, cut out at one half", found.name);
+    }
+}
+
+Look look_of(const GltfFile& file, int material, TextureSet& textures, Warnings& warnings) {
     Look look;
     if (material < 0) return look;
-    if (static_cast<std::size_t>(material) >= file.model.materials.size())
-        fail("material " + std::to_string(material), "one of " + std::to_string(file.model.materials.size()));
+    if (static_cast<std::size_t>(material) >= file.model.materials.size()) {
+        warnings.add("material that doesn't exist, left out", "material " + std::to_string(material));
+        return look;
+    }
     const tinygltf::Material& found = file.model.materials[static_cast<std::size_t>(material)];
-    const tinygltf::PbrMetallicRoughness& pbr = found.pbrMetallicRoughness;
-    for (std::size_t i = 0; i < 4 && pbr.baseColorFactor.size() == 4; ++i)
-        look.factor[static_cast<int>(i)] = static_cast<float>(pbr.baseColorFactor[i]);
+    read_base_color(found, textures, look);
+    read_emission(found, textures, warnings, look);
+    read_alpha(found, warnings, look);
     look.material.double_sided = found.doubleSided;
-    look.material.texture = textures.id_of(pbr.baseColorTexture.index);
-    look.uv_set = pbr.baseColorTexture.texCoord;
-    apply_texture_transform(pbr.baseColorTexture.extensions, look);
+    look.material.unlit = found.extensions.contains("KHR_materials_unlit");
     return look;
 }
 
@@ -165,6 +254,45 @@ glm::vec3 vector_at(const Accessor& accessor, std::size_t element) {
     return {accessor.finite(element, 0), accessor.finite(element, 1), accessor.finite(element, 2)};
 }
 
+// The unit normal of a triangle; zero if it has none.
+glm::vec3 flat_normal(const std::array<glm::vec3, 3>& corners) {
+    const glm::dvec3 first(corners[0]);
+    const glm::dvec3 normal = glm::cross(glm::dvec3(corners[1]) - first, glm::dvec3(corners[2]) - first);
+    const double length = glm::length(normal);
+    return length > 0 && std::isfinite(length) ? glm::vec3(normal / length) : glm::vec3(0.0f);
+}
+
+// Gives a vertex between triangles of other directions one place in `used` for each of them, so that all are flat.
+void split_at_edges(GltfFile& file, const Accessor& positions, Indices& triangles, Indices& used) {
+    constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+    constexpr float same = 1e-5f;  // between unit normals
+    std::vector<glm::vec3> normals(used.size(), glm::vec3(0.0f));
+    Indices next(used.size(), none);  // the same vertex, for another direction
+    std::vector<bool> taken(used.size(), false);
+    for (std::size_t i = 0; i < triangles.size(); i += 3) {
+        std::array<glm::vec3, 3> corners;
+        for (std::size_t k = 0; k < 3; ++k) corners[k] = vector_at(positions, used[triangles[i + k]]);
+        const glm::vec3 normal = flat_normal(corners);
+        if (normal == glm::vec3(0.0f)) continue;
+        for (std::size_t k = 0; k < 3; ++k) {
+            std::uint32_t& at = triangles[i + k];
+            while (taken[at] && glm::distance(normals[at], normal) > same) {
+                if (next[at] == none) {
+                    file.budget.spend(1);
+                    next[at] = static_cast<std::uint32_t>(used.size());
+                    used.push_back(used[at]);
+                    normals.emplace_back(0.0f);
+                    next.push_back(none);
+                    taken.push_back(false);
+                }
+                at = next[at];
+            }
+            taken[at] = true;
+            normals[at] = normal;
+        }
+    }
+}
+
 // Adds one primitive, hung on one attachment, to the mesh.
 class PrimitiveWriter {
 public:
@@ -178,6 +306,7 @@ public:
         vertex_count_ = positions.count();
         triangles_ = read_triangles(file_, primitive_, vertex_count_);
         used_ = compact(file_, triangles_);
+        if (!primitive_.attributes.contains("NORMAL")) split_at_edges(file_, positions, triangles_, used_);
         if (used_.empty()) return;
         file_.budget.spend(used_.size());
         if (first_ + used_.size() > std::numeric_limits<std::uint32_t>::max()) fail("2^32 vertices", "fewer");
@@ -214,7 +343,7 @@ private:
         return out;
     }
 
-    // Missing or degenerate normals are the surface's.
+    // Without any normals triangles are flat, as glTF 2.0 says; single bad ones are the surface's.
     void write_normals() {
         const auto given = optional_accessor(file_, primitive_.attributes, "NORMAL", 3, vertex_count_);
         for (const std::uint32_t vertex : used_) {
@@ -245,7 +374,8 @@ private:
         }
         mesh_.slots.resize(mesh_.positions.size(), no_slot);
         Material material = look.material;
-        if (!uvs) material.texture = no_texture;
+        if (!uvs && material.emissive_texture != no_texture) material.emissive = glm::vec3(0.0f);
+        if (!uvs) material.texture = material.emissive_texture = no_texture;
         mesh_.material_ids.resize(mesh_.positions.size(), number_of(material, mesh_.materials));
     }
 
@@ -366,7 +496,7 @@ void build_mesh(GltfFile& file, const NodeOrder& nodes, Character& character) {
                 skins[node.skin] = attach_to_skin(file, skin, nodes, palette);
             }
             PrimitiveWriter writer(file, primitive, character.mesh);
-            const Look look = look_of(file, primitive.material, textures);
+            const Look look = look_of(file, primitive.material, textures, character.warnings);
             writer.write(look, skinned ? skins[node.skin] : Attachment{{palette.entry(own, glm::mat4(1.0f))}, false});
             writer.write_morphs(own, node.weights.empty() ? mesh.weights : node.weights);
         }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "model/input_file.h"
@@ -51,17 +52,21 @@ std::string lower_case(const std::filesystem::path& path) {
     return text;
 }
 
+bool is_gltf(std::string_view extension) {
+    return extension == ".glb" || extension == ".gltf" || extension == ".vrm";
+}
+
 }  // namespace
 
 Character load_mesh(const std::filesystem::path& path) {
     static constexpr std::array<std::pair<const char*, Read>, 4> readers{
         {{".obj", read_obj}, {".ply", read_ply}, {".stl", read_stl}, {".off", read_off}}};
-    constexpr const char* formats = ".glb, .gltf, .obj, .ply, .stl or .off";
+    constexpr const char* formats = ".glb, .gltf, .vrm, .obj, .ply, .stl or .off";
     std::filesystem::path name = path.filename();
     const bool packed = lower_case(name.extension()) == ".gz";
     if (packed) name = name.stem();
     const std::string extension = lower_case(name.extension());
-    if (!packed && (extension == ".glb" || extension == ".gltf")) return load_gltf(path);
+    if (!packed && (is_gltf(extension))) return load_gltf(path);
     for (const auto& [suffix, read] : readers)
         if (extension == suffix) return load_statue(path, name.stem().string(), read);
     return with_name(path, [&]() -> Character {

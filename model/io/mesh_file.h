@@ -1,5 +1,5 @@
-// Meshes of any format people have: .glb and .gltf (gltf.h), .obj, .ply, .stl and .off. By the file's extension, in any
-// case; the latter four may be packed by gzip, and end in .gz then or not.
+// Meshes of any format people have: .glb, .gltf and .vrm (gltf.h), .obj, .ply, .stl and .off. By the file's extension, in
+// any case; the latter four may be packed by gzip, and end in .gz then or not.
 #pragma once
 
 #include <filesystem>

@@ -31,6 +31,11 @@ json& attributes(GltfBuilder& builder) {
 
 // --- Numbers
 
+// Normals of a square's four vertices: without any they would part where its triangles bend.
+int add_normals(GltfBuilder& builder) {
+    return builder.vec3({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1});
+}
+
 // A square whose corners lie at these numbers, among others that are no part of it: the accessor begins within its
 // view, the view within the buffer, and elements are a stride apart.
 template <typename Value>
@@ -48,6 +53,7 @@ GltfBuilder square_at(tests::ComponentType type, bool normalized, const std::vec
                                              {"count", 4},
                                              {"type", "VEC3"}});
     attributes(builder)["POSITION"] = builder.document["accessors"].size() - 1;
+    attributes(builder)["NORMAL"] = add_normals(builder);
     return builder;
 }
 
@@ -86,7 +92,7 @@ void expect_sparse(tests::ComponentType type) {
     GltfBuilder builder = square_at(tests::i16, false, base);
     const int indices = builder.add_view("abcd" + bytes_of(std::vector<Index>{1, 3})),
               values = builder.add_view("ef" + bytes_of(own));
-    builder.document["accessors"].back()["sparse"] = {
+    builder.document["accessors"][attributes(builder)["POSITION"].get<std::size_t>()]["sparse"] = {
         {"count", 2},
         {"indices", {{"bufferView", indices}, {"byteOffset", 4}, {"componentType", static_cast<int>(type)}}},
         {"values", {{"bufferView", values}, {"byteOffset", 2}}}};
@@ -103,6 +109,7 @@ TEST(GltfNumbers, SparseOnesReplaceTheirElementsAndNoOthers) {
 template <typename Index>
 void expect_indices(tests::ComponentType type) {
     GltfBuilder builder = tests::make_square();
+    attributes(builder)["NORMAL"] = add_normals(builder);
     builder.document["meshes"][0]["primitives"][0]["indices"] =
         builder.add("SCALAR", type, 1, std::vector<Index>{2, 3, 0, 3, 2, 1});
     EXPECT_EQ(load(builder).mesh.indices, (std::vector<std::uint32_t>{2, 3, 0, 3, 2, 1})) << type;
@@ -159,11 +166,12 @@ TEST(GltfVertices, ColorsOfThreeChannelsAreOpaque) {
     EXPECT_EQ(mesh.colors[3], glm::u8vec4(255, 0, 188, 255));
 }
 
-TEST(GltfVertices, ComputedNormalsWeighTrianglesByTheirArea) {
+TEST(GltfVertices, NormalsThatAreNoneWeighTrianglesByTheirArea) {
     GltfBuilder builder = tests::make_square();
     // A corner of a box: two square units face z, half a one faces x, both with the corners 0 and 1.
     attributes(builder)["POSITION"] = builder.vec3({0, 0, 0, 0, 1, 0, 4, 0, 0, 0, 0, 1});
     builder.document["meshes"][0]["primitives"][0]["indices"] = builder.indices({0, 2, 1, 0, 1, 3});
+    attributes(builder)["NORMAL"] = builder.vec3(std::vector<float>(12, 0.0f));
     const model::Mesh mesh = load(builder).mesh;
     const glm::vec3 shared = glm::normalize(glm::vec3(0.5f, 0, 2));
     EXPECT_LT(glm::distance(mesh.normals[0], shared), 1e-6f);

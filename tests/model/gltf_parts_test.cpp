@@ -56,7 +56,8 @@ int add_texture(GltfBuilder& builder, const std::string& texels) {
 }
 
 json corners(GltfBuilder& builder, float side) {
-    return {{"POSITION", builder.vec3({0, 0, 0, side, 0, 0, side, side, 0.5f, 0, side, 0})}};
+    return {{"POSITION", builder.vec3({0, 0, 0, side, 0, 0, side, side, 0.5f, 0, side, 0})},
+            {"NORMAL", builder.vec3({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1})}};
 }
 
 // --- The parts

@@ -242,12 +242,20 @@ TEST(Gltf, TextureTransformsMoveTheCoordinates) {
     EXPECT_LT(glm::distance(mesh.uvs[3], glm::vec2(3.5f, 0)), 1e-6f);
 }
 
+// All that a character's file lost, a line each but the last.
+std::string warnings_of(const model::Character& character) {
+    std::string lines;
+    for (const model::Warning& warning : character.warnings)
+        lines += (lines.empty() ? "" : "\n") + model::text_of(warning);
+    return lines;
+}
+
 TEST(Gltf, TexturesLieBesideTheFileToo) {
     const tests::TemporaryFolder folder;
     GltfBuilder builder = tests::make_everything();
     builder.document["images"][0] = {{"uri", "my%20skin.png"}};
     const auto path = folder.write("built.glb", builder.glb());
-    EXPECT_TRUE(contains(complaint(path), "my%20skin.png"));
+    EXPECT_EQ(warnings_of(model::load_gltf(path)), "texture not found, left out: 'my skin.png'");
     folder.write("my skin.png", tests::make_png(1, 1, "abc"));
     EXPECT_EQ(model::load_gltf(path).mesh.textures[0].texels[0], glm::u8vec4('a', 'b', 'c', 255));
 }
@@ -276,7 +284,7 @@ TEST(GltfRefuses, WhatLiesInTheWorkingDirectoryAlone) {
     elsewhere.write("data.bin", builder.binary);
     const auto before = std::filesystem::current_path();
     std::filesystem::current_path(elsewhere / "");
-    EXPECT_TRUE(contains(complaint(textured), "skin.png"));
+    EXPECT_EQ(warnings_of(model::load_gltf(textured)), "texture not found, left out: 'skin.png'");
     EXPECT_TRUE(contains(complaint(buffered), "data.bin"));
     std::filesystem::current_path(before);
 }
@@ -360,13 +368,6 @@ TEST(GltfRefuses, FilesThatUnfoldWithoutEnd) {
     }
     instances.document["scenes"][0]["nodes"] = roots;
     EXPECT_TRUE(contains(complaint(instances), "repeated"));
-
-    GltfBuilder buffers = tests::make_square();
-    const std::string text = buffers.document.dump();
-    const std::string twice = R"({"buffers":[{"byteLength":4},{"byteLength":4}],)" + text.substr(1);
-    const tests::TemporaryFolder folder;
-    EXPECT_TRUE(
-        contains(complaint(folder.write("buffers.glb", tests::make_glb(twice, buffers.binary))), "two buffers"));
 }
 
 TEST(GltfRefuses, JsonNestedWithoutEnd) {
