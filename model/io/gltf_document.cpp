@@ -88,6 +88,12 @@ void GltfDocument::keep_plain_animations(Warnings& warnings) {
     }
 }
 
+std::string GltfDocument::take_rest() {
+    std::string text = document_.dump();
+    document_ = nullptr;
+    return text;
+}
+
 std::vector<tinygltf::Buffer> GltfDocument::buffers(const std::filesystem::path& folder,
                                                     std::vector<unsigned char> chunk) {
     FileFinder finder(folder);

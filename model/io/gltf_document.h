@@ -19,8 +19,9 @@ public:
     // `text` has passed check_gltf_json. Throws if it is of another version than 2.
     GltfDocument(std::string_view text, Warnings& warnings);
 
-    // What tinygltf may see: all but buffers, images and the clips' own extensions.
-    std::string rest() const { return document_.dump(); }
+    // What tinygltf may see: all but buffers, images and the clips' own extensions. Once: the memory is given back, as
+    // tinygltf needs as much for its own.
+    std::string take_rest();
 
     // `chunk`: the binary chunk, which is the first buffer if that has no URI. Others without one are empty, as the
     // fallbacks of compressed data are. Throws if a buffer can't be had or is shorter than it says.

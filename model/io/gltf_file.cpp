@@ -122,7 +122,7 @@ GltfFile open_gltf(const fs::path& path, Warnings& warnings) {
         const std::string_view text(reinterpret_cast<const char*>(bytes.data()) + chunks.json.begin, chunks.json.size);
         check_gltf_json(text);
         GltfDocument document(text, warnings);
-        parse(document.rest(), file.model);
+        parse(document.take_rest(), file.model);
         check_extensions(file.model);
         keep_only(chunks.binary, bytes);
         file.model.buffers = document.buffers(file.folder, std::move(bytes));
