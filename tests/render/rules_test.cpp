@@ -268,7 +268,7 @@ TEST(RateRule, NobodyIsExpectedToShowOnMoreThanThePicture) {
     for (const figures::Way* way : ways) {
         const tests::LonePeople one(tests::make_lift(0.25f, 1, 1, 8), feet, 2000);
         Selector selector(one.crowd, one.cast, one.figures(), {.way = way});
-        for (const auto [width, height] : {std::pair(640, 360), std::pair(4, 4), std::pair(1, 1)})
+        for (const auto& [width, height] : {std::pair(640, 360), std::pair(4, 4), std::pair(1, 1)})
             for (double distance = 0.01; distance < 10; distance *= 1.5) {
                 const render::View view = render::make_view({{0, 1.7, distance}, {0, 0.9, 0}, 0.6}, width, height);
                 for (const sfsm::RateStep& step : selector.survey(view, tick).forecast.rates) {
