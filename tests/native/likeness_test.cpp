@@ -172,6 +172,7 @@ Shot inside() {
 
 void expect_alike(const std::string& name, model::Character character) {
     const scene::Casting casting = scene::cast(character);
+    scene::add_stills(character, casting);
     const reference::Model model(std::move(character), casting.clips, 64);
     for (const Shot& shot : {tall(400), tall(150), tall(60), tall(1500), inside()}) {
         const Difference d = shoot(model, name, shot);

@@ -77,11 +77,12 @@ std::unique_ptr<Model> model_of_file(const std::string& name, const figures::Way
     const std::filesystem::path file = std::filesystem::path(GRANDSTAND_SHARED) / "assets" / name;
     if (!std::filesystem::exists(file)) return nullptr;
     model::Character character = model::load_mesh(file);
-    const std::vector<int> clips = scene::cast(character).clips;
+    const scene::Casting casting = scene::cast(character);
+    scene::add_stills(character, casting);
     const std::size_t triangles = character.mesh.triangle_count();
     const bool natively = way.drawing == sfsm::Drawing::native;
     const std::size_t points = natively ? figures::points_worth(triangles, way) : triangles / 2;
-    return std::make_unique<Model>(std::move(character), clips, points);
+    return std::make_unique<Model>(std::move(character), casting.clips, points);
 }
 
 std::unique_ptr<render::Renderer> make_renderer(const figures::Way& way, const scene::StaticMesh& structure,
