@@ -1,5 +1,6 @@
 #include "model/io/gltf.h"
 
+#include "model/io/cutouts.h"
 #include "model/io/gltf_file.h"
 
 namespace model {
@@ -11,6 +12,7 @@ Character load(const std::filesystem::path& path) {
     character.name = path.stem().string();
     const NodeOrder nodes = build_nodes(file, character.skeleton);
     build_mesh(file, nodes, character);
+    fill_cutouts(character.mesh);
     if (character.mesh.indices.empty()) fail("no triangles", "a mesh in the default scene");
     build_clips(file, nodes, character);
     return character;

@@ -71,7 +71,7 @@ TEST_P(BoundsOf, CoveringIsNeverBrokenAndNotLoose) {
     std::vector<int> counts{4, 8, 20, 64, 200, 600, figure.poses->point_count};
     std::erase_if(counts, [&](int count) { return count > figure.poses->point_count; });
     std::vector<double> most(counts.size());
-    constexpr int poses = 3;
+    constexpr int poses = 9;
     for (int i = 0; i < poses; ++i) {
         const std::vector<double> seen =
             tests::true_covering(figure, (2 * i + 1) * figure.poses->pose_count / (2 * poses), counts);

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -293,17 +292,9 @@ TEST(ReferenceCrowd, ItsStatesCostAboutOneAThirdAndATenth) {
     EXPECT_EQ(scenario.plant->forecast(50)->frame[WorkKind::person], 20000);
 }
 
-TEST(ReferenceCrowd, AMillionFramesAreACourseInSeconds) {
+TEST(ReferenceCrowd, AMillionFramesAreACourse) {
     const std::vector<TraceRow> rows = foreign_rows(1'000'000);
-    const auto begin = std::chrono::steady_clock::now();
-    const Course course = make_course(recorded_scenario(rows, foreign));
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    EXPECT_EQ(course.best.size(), rows.size());
-#if defined(NDEBUG) && !defined(__SANITIZE_ADDRESS__)
-    EXPECT_LT(seconds, 5.0);  // 0.5 s on the machine it was written on
-#else
-    (void)seconds;
-#endif
+    EXPECT_EQ(make_course(recorded_scenario(rows, foreign)).best.size(), rows.size());
 }
 
 TEST(Recorded, RowsWithoutATimeHaveTheLoadOfTheLastOneBefore) {
