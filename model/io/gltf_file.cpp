@@ -9,6 +9,7 @@
 
 #include "model/io/gltf_document.h"
 #include "model/io/gltf_guard.h"
+#include "model/io/gltf_packed.h"
 
 namespace model {
 namespace {
@@ -84,8 +85,10 @@ void parse(const std::string& text, tinygltf::Model& model) {
 
 // Those that only add looks, lights or labels take nothing from the shape. The rest of what is listed is read.
 bool can_be_read(std::string_view extension) {
-    static constexpr std::array<std::string_view, 13> known{"KHR_texture_transform",
+    static constexpr std::array<std::string_view, 15> known{"KHR_texture_transform",
                                                             "KHR_mesh_quantization",
+                                                            "EXT_meshopt_compression",
+                                                            "KHR_meshopt_compression",
                                                             "EXT_texture_webp",
                                                             "KHR_lights_punctual",
                                                             "KHR_animation_pointer",
@@ -111,6 +114,12 @@ void keep_only(const Stretch& stretch, std::vector<unsigned char>& bytes) {
     bytes.erase(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(stretch.begin));
 }
 
+std::size_t bytes_of_buffers(const GltfFile& file) {
+    std::size_t bytes = 0;
+    for (const tinygltf::Buffer& buffer : file.model.buffers) bytes += buffer.data.size();
+    return bytes;
+}
+
 }  // namespace
 
 GltfFile open_gltf(const fs::path& path, Warnings& warnings) {
@@ -128,22 +137,27 @@ GltfFile open_gltf(const fs::path& path, Warnings& warnings) {
         file.model.buffers = document.buffers(file.folder, std::move(bytes));
         file.model.images = document.images();
     }
-    std::size_t buffer_bytes = 0;
-    for (const tinygltf::Buffer& buffer : file.model.buffers) buffer_bytes += buffer.data.size();
-    file.budget = Budget(buffer_bytes);
+    UnpackLimit limit(bytes_of_buffers(file));
+    unpack_meshopt(file, limit);
+    file.budget = Budget(bytes_of_buffers(file));
     return file;
+}
+
+std::span<const unsigned char> bytes_of_buffer(const GltfFile& file, int index, std::size_t offset, std::size_t length,
+                                               const std::string& user) {
+    if (index < 0 || static_cast<std::size_t>(index) >= file.model.buffers.size())
+        fail("buffer " + std::to_string(index) + " of " + user, "one that exists");
+    const std::vector<unsigned char>& data = file.model.buffers[static_cast<std::size_t>(index)].data;
+    if (offset > data.size() || length > data.size() - offset)
+        fail(user + " beyond the end of its buffer", "it inside");
+    return {data.data() + offset, length};
 }
 
 std::span<const unsigned char> bytes_of_view(const GltfFile& file, int index, const std::string& user) {
     if (index < 0 || static_cast<std::size_t>(index) >= file.model.bufferViews.size())
         fail("buffer view " + std::to_string(index) + " of " + user, "one that exists");
     const tinygltf::BufferView& view = file.model.bufferViews[static_cast<std::size_t>(index)];
-    if (view.buffer < 0 || static_cast<std::size_t>(view.buffer) >= file.model.buffers.size())
-        fail("buffer " + std::to_string(view.buffer) + " of " + user, "one that exists");
-    const std::vector<unsigned char>& data = file.model.buffers[static_cast<std::size_t>(view.buffer)].data;
-    if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset)
-        fail(user + " beyond the end of its buffer", "it inside");
-    return {data.data() + view.byteOffset, view.byteLength};
+    return bytes_of_buffer(file, view.buffer, view.byteOffset, view.byteLength, user);
 }
 
 }  // namespace model

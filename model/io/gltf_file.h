@@ -45,8 +45,12 @@ struct GltfFile {
     std::filesystem::path folder;  // that the file's own names are relative to
 };
 
-// Reads and checks all but images, which stay as names, data URIs and buffer views.
+// Reads, unpacks and checks all but images, which stay as names, data URIs and buffer views.
 GltfFile open_gltf(const std::filesystem::path& path, Warnings& warnings);
+
+// A stretch of a buffer [bytes], inside it; throws unless it is. `user` is for the message.
+std::span<const unsigned char> bytes_of_buffer(const GltfFile& file, int buffer, std::size_t offset, std::size_t length,
+                                               const std::string& user);
 
 // All of a buffer view, inside its buffer; throws unless it is. `user` is for the message.
 std::span<const unsigned char> bytes_of_view(const GltfFile& file, int view, const std::string& user);

@@ -22,7 +22,7 @@
 #include "model/io/mesh_file.h"
 #include "motion/pose.h"
 #include "pointsample/points_file.h"
-#include "tests/model/gltf_builder.h"
+#include "tests/model/gltf_packer.h"
 #include "tests/model/mesh_text.h"
 #include "tests/pointsample/models.h"
 
@@ -185,6 +185,12 @@ std::string damaged_bytes(std::string bytes, Random& random) {
     return bytes;
 }
 
+std::string with_flips_from(std::size_t begin, std::string bytes, Random& random) {
+    for (std::uint64_t i = 1 + random() % 4; i > 0; --i)
+        bytes[begin + random() % (bytes.size() - begin)] = static_cast<char>(random());
+    return bytes;
+}
+
 // Text: a word becomes a hostile one, or a line comes twice, not at all or elsewhere.
 std::string damaged_text(std::string text, Random& random) {
     static const std::vector<std::string> words{"0",
@@ -287,6 +293,17 @@ TEST_F(HostileFiles, ObjMaterials) {
         return whole;
     });
     EXPECT_EQ(progress_->loaded, 2000u);  // a look that is lost is no reason to refuse
+}
+
+// The whole file's bytes by turns with those of its compressed data alone, so that decoders are reached.
+TEST_F(HostileFiles, GltfMeshopt) {
+    const std::string whole = tests::packed_glb(tests::pack_meshopt(tests::make_barrel(), "TRIANGLES"));
+    const std::size_t data = whole.find("BIN");
+    Random random(20);
+    attempt("damaged.glb", 2000, [&](std::size_t i) {
+        return i % 4 == 0 ? damaged_bytes(whole, random) : with_flips_from(data, whole, random);
+    });
+    expect_both(100);
 }
 
 TEST_F(HostileFiles, PlyBytes) {
