@@ -11,8 +11,8 @@ namespace model {
 // - Read: parts, skins, rigid parts on nodes, morph targets, and of materials: base colours, samplers, alpha, sides and
 //   light of their own (KHR_materials_unlit, _emissive_strength, _pbrSpecularGlossiness, KHR_texture_transform).
 // - Alpha MASK cuts out; BLEND does at one half, and is said. OPAQUE alpha means nothing.
-// - Read compressed: EXT_meshopt_compression (KHR_meshopt_compression as far as it is the same) and quantised attributes
-//   (KHR_mesh_quantization). It may unfold to 16 MiB and a hundred bytes for every byte of the buffers.
+// - Read compressed: EXT_meshopt_compression (KHR_meshopt_compression as far as it is the same),
+//   KHR_draco_mesh_compression and quantised attributes (KHR_mesh_quantization). It may unfold to 16 MiB and a hundred bytes for every byte of the buffers.
 // - Strips and fans become triangles. Without normals triangles are flat, and vertices between them part.
 // - Skinned vertices ignore their node's transform, as glTF 2.0 says. Units and axes stay the file's (y up).
 // - Left out and said (Character::warnings): textures that can't be had, clips that can't be played, channels that

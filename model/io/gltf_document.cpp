@@ -1,5 +1,6 @@
 #include "model/io/gltf_document.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 
@@ -34,6 +35,15 @@ json taken(json& document, const char* key) {
     for (const json& element : list)
         if (!element.is_object()) fail("one of the " + std::string(key) + " that is no object", "glTF 2.0");
     return list;
+}
+
+// The list at `key`, where that is one of objects alone; else an empty one.
+json& objects_at(json& object, const char* key) {
+    static json none = json::array();
+    const auto found = object.find(key);
+    const bool good = found != object.end() && found->is_array() &&
+                      std::ranges::all_of(*found, [](const json& element) { return element.is_object(); });
+    return good ? *found : none;
 }
 
 // As those of KHR_animation_pointer, which change a material, say.
@@ -71,6 +81,7 @@ GltfDocument::GltfDocument(std::string_view text, Warnings& warnings) : document
     buffers_ = taken(document_, "buffers");
     images_ = taken(document_, "images");
     keep_plain_animations(warnings);
+    hide_packed_indices();
 }
 
 // tinygltf copies a clip's extensions once for every sampler, and drops channels without a node in silence.
@@ -85,6 +96,20 @@ void GltfDocument::keep_plain_animations(Warnings& warnings) {
         if (channels == animation.end() || !channels->is_array()) continue;
         for (const json& channel : *channels)
             if (moves_no_node(channel)) warnings.add("channel of a clip that moves no bone or morph, left out", name);
+    }
+}
+
+// tinygltf refuses indices without a buffer view, which those that Draco holds have no need of.
+void GltfDocument::hide_packed_indices() {
+    for (json& mesh : objects_at(document_, "meshes")) {
+        for (json& primitive : objects_at(mesh, "primitives")) {
+            const auto extensions = primitive.find("extensions"), indices = primitive.find("indices");
+            if (extensions == primitive.end() || !extensions->is_object() || indices == primitive.end()) continue;
+            const auto packed = extensions->find("KHR_draco_mesh_compression");
+            if (packed == extensions->end() || !packed->is_object()) continue;
+            (*packed)["indices"] = std::move(*indices);
+            primitive.erase(indices);
+        }
     }
 }
 

@@ -19,7 +19,8 @@ public:
     // `text` has passed check_gltf_json. Throws if it is of another version than 2.
     GltfDocument(std::string_view text, Warnings& warnings);
 
-    // What tinygltf may see: all but buffers, images and the clips' own extensions. Once: the memory is given back, as
+    // What tinygltf may see: all but buffers, images and the clips' own extensions. Of primitives that Draco holds the
+    // indices' accessor is in their extension, as "indices". Once: the memory is given back, as
     // tinygltf needs as much for its own.
     std::string take_rest();
 
@@ -32,6 +33,7 @@ public:
 
 private:
     void keep_plain_animations(Warnings& warnings);
+    void hide_packed_indices();
 
     nlohmann::json document_, buffers_, images_;
 };

@@ -85,10 +85,11 @@ void parse(const std::string& text, tinygltf::Model& model) {
 
 // Those that only add looks, lights or labels take nothing from the shape. The rest of what is listed is read.
 bool can_be_read(std::string_view extension) {
-    static constexpr std::array<std::string_view, 15> known{"KHR_texture_transform",
+    static constexpr std::array<std::string_view, 16> known{"KHR_texture_transform",
                                                             "KHR_mesh_quantization",
                                                             "EXT_meshopt_compression",
                                                             "KHR_meshopt_compression",
+                                                            "KHR_draco_mesh_compression",
                                                             "EXT_texture_webp",
                                                             "KHR_lights_punctual",
                                                             "KHR_animation_pointer",
@@ -139,6 +140,7 @@ GltfFile open_gltf(const fs::path& path, Warnings& warnings) {
     }
     UnpackLimit limit(bytes_of_buffers(file));
     unpack_meshopt(file, limit);
+    unpack_draco(file, limit);
     file.budget = Budget(bytes_of_buffers(file));
     return file;
 }

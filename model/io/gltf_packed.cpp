@@ -16,7 +16,7 @@ int add_unpacked(GltfFile& file, std::vector<unsigned char> bytes) {
 std::uint32_t whole_number(const tinygltf::Value& object, const char* name, const std::string& user) {
     const bool given = object.IsObject() && object.Has(name) && object.Get(name).IsInt();
     const int number = given ? object.Get(name).GetNumberAsInt() : -1;
-    if (number < 0) fail(user + " without " + name, "a whole number from 0");
+    if (number < 0) fail(user + " without " + in_quotes(name), "a whole number from 0");
     return static_cast<std::uint32_t>(number);
 }
 

@@ -39,4 +39,8 @@ std::uint32_t whole_number(const tinygltf::Value& object, const char* name, cons
 // what they unpack to. Throws if one is damaged.
 void unpack_meshopt(GltfFile& file, UnpackLimit& limit);
 
+// KHR_draco_mesh_compression: primitives that have it get accessors of what it unpacks to, which hold as many vertices
+// and indices as there are; more than the file's own accessors say are refused. Throws if one is damaged.
+void unpack_draco(GltfFile& file, UnpackLimit& limit);
+
 }  // namespace model

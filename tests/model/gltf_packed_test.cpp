@@ -9,6 +9,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "tests/model/draco_packer.h"
 #include "tests/model/gltf_packer.h"
 
 namespace {
@@ -173,13 +174,13 @@ TEST(GltfPacked, WrongMeshoptIsRefusedByName) {
         const char *key, *said;
         json value;
     } cases[] = {{"buffer", "buffer 7", 7},
-                 {"buffer", "without buffer", -1},
+                 {"buffer", "without 'buffer'", -1},
                  {"byteOffset", "beyond the end", 1 << 30},
                  {"byteLength", "beyond the end", 1 << 30},
                  {"byteLength", "damaged", 20},
                  {"count", "damaged", 80},
                  {"count", "what they can hold", 2147483647},
-                 {"count", "without count", "4"},
+                 {"count", "without 'count'", "4"},
                  {"byteStride", "stride of 0", 0},
                  {"byteStride", "stride of 13", 13},
                  {"byteStride", "stride of 260", 260},
@@ -211,6 +212,71 @@ TEST(GltfPacked, MeshoptThatUnfoldsToTooMuchIsRefused) {
     EXPECT_EQ(load_glb(tests::packed_glb(builder)).mesh.triangle_count(), 2u);
     for (int i = 0; i < 50; ++i) views.push_back(one);
     contains(complaint(tests::packed_glb(builder)), "more compressed data");
+}
+
+constexpr std::array draco_methods{draco::MESH_SEQUENTIAL_ENCODING, draco::MESH_EDGEBREAKER_ENCODING};
+
+TEST(GltfPacked, DracoIsReadToItsQuantisation) {
+    constexpr float step = 4.0f / (1 << tests::draco_position_bits), normals = 2e-3f;
+    for (const GltfBuilder& plain : {tests::make_square(), tests::make_barrel()}) {
+        const model::Character expected = tests::load(plain);
+        for (const int method : draco_methods) {
+            const model::Character got = tests::load(tests::pack_draco(plain, method));
+            expect_same(got.mesh, expected.mesh, normals);
+            for (std::size_t i = 0; i < got.mesh.vertex_count(); ++i) {
+                const std::size_t at = nearest(expected.mesh, got.mesh, i);
+                ASSERT_LE(glm::distance(got.mesh.positions[i], expected.mesh.positions[at]), step);
+            }
+            EXPECT_EQ(got.clips.size(), expected.clips.size());
+        }
+    }
+}
+
+TEST(GltfPacked, DracoThatIsNotRequiredIsReadToo) {
+    GltfBuilder builder = tests::pack_draco(tests::make_square(), draco::MESH_EDGEBREAKER_ENCODING);
+    builder.document.erase("extensionsRequired");
+    EXPECT_EQ(tests::load(builder).mesh.triangle_count(), 2u);
+}
+
+TEST(GltfPacked, DracoBeyondItsAccessorsIsRefused) {
+    for (const int method : draco_methods) {
+        for (const char* what : {"vertices", "indices"}) {
+            GltfBuilder builder = tests::pack_draco(tests::make_square(), method);
+            const json& primitive = builder.document["meshes"][0]["primitives"][0];
+            const bool vertices = std::string(what) == "vertices";
+            const std::size_t accessor = vertices ? primitive["attributes"]["POSITION"] : primitive["indices"];
+            builder.document["accessors"][accessor]["count"] = 3;
+            contains(complaint(builder.glb()), std::string(what) + " in Draco's data; expected 3");
+        }
+    }
+}
+
+TEST(GltfPacked, WrongDracoIsRefusedByName) {
+    const struct {
+        const char *place, *said;
+        json value;
+    } cases[] = {{"/bufferView", "buffer view 99", 99},
+                 {"/bufferView", "without 'bufferView'", "x"},
+                 {"/bufferView", "no data of Draco", 0},
+                 {"/attributes/POSITION", "no 'POSITION' in Draco's data", 77},
+                 {"/attributes/POSITION", "without 'POSITION'", -5}};
+    for (const auto& wrong : cases) {
+        GltfBuilder builder = tests::pack_draco(tests::make_square(), draco::MESH_EDGEBREAKER_ENCODING);
+        json& extension = builder.document["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"];
+        extension[json::json_pointer(wrong.place)] = wrong.value;
+        contains(complaint(builder.glb()), wrong.said);
+    }
+}
+
+TEST(GltfPacked, TruncatedDracoIsRefused) {
+    for (const int method : draco_methods) {
+        GltfBuilder builder = tests::pack_draco(tests::make_square(), method);
+        const std::size_t length = builder.document["bufferViews"].back()["byteLength"];
+        for (std::size_t left = 0; left < length; ++left) {
+            builder.document["bufferViews"].back()["byteLength"] = left;
+            contains(complaint(builder.glb()), "Draco");
+        }
+    }
 }
 
 }  // namespace

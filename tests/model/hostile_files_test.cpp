@@ -22,6 +22,7 @@
 #include "model/io/mesh_file.h"
 #include "motion/pose.h"
 #include "pointsample/points_file.h"
+#include "tests/model/draco_packer.h"
 #include "tests/model/gltf_packer.h"
 #include "tests/model/mesh_text.h"
 #include "tests/pointsample/models.h"
@@ -304,6 +305,18 @@ TEST_F(HostileFiles, GltfMeshopt) {
         return i % 4 == 0 ? damaged_bytes(whole, random) : with_flips_from(data, whole, random);
     });
     expect_both(100);
+}
+
+TEST_F(HostileFiles, GltfDraco) {
+    for (const int method : {draco::MESH_SEQUENTIAL_ENCODING, draco::MESH_EDGEBREAKER_ENCODING}) {
+        const std::string whole = tests::pack_draco(tests::make_barrel(), method).glb();
+        const std::size_t data = whole.rfind("DRACO");
+        Random random(21);
+        attempt("damaged.glb", 2000, [&](std::size_t i) {
+            return i % 4 == 0 ? damaged_bytes(whole, random) : with_flips_from(data, whole, random);
+        });
+        expect_both(30);
+    }
 }
 
 TEST_F(HostileFiles, PlyBytes) {
