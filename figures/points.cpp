@@ -70,10 +70,11 @@ std::vector<PointLook> point_looks(const Figure& figure) {
         if (count > longest_averaged_prefix) break;
         std::uint32_t point = 0;
         for (const pointsample::PrefixLook& look : pointsample::prefix_looks(model, count))
-            looks.push_back({point++, look.color, look.shares, count <= longest_two_sided_prefix});
+            looks.push_back({point++, look.color, look.shares, look.own_light, count <= longest_two_sided_prefix});
     }
     for (std::uint32_t point = 0; point < model.size(); ++point)
-        looks.push_back({point, model.colors[point], all_of(model.slots[point]), false});
+        looks.push_back({point, model.colors[point], all_of(model.slots[point]),
+                         model.own_lights.empty() ? glm::u8vec4(0) : model.own_lights[point], false});
     return looks;
 }
 

@@ -39,6 +39,7 @@ struct PointLook {
     std::uint32_t point = 0;                               // into the model's, and a pose's, points
     glm::u8vec3 color{0};                                  // sRGB
     std::array<std::uint8_t, model::slot_count> shares{};  // of slots 1 to slot_count, unorm; the rest is no_slot's
+    glm::u8vec4 own_light{0};                              // as pointsample::PointModel has it
     bool two_sided = false;                                // shown from behind too, even of a closed body
 };
 

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "model/own_light.h"
 #include "model/srgb.h"
 #include "model/texture_sample.h"
 
@@ -66,6 +67,10 @@ glm::u8vec4 color_of(const Mesh& mesh, const Corners& corners) {
             static_cast<std::uint8_t>(std::min(alpha + 0.5f, 255.0f))};
 }
 
+glm::u8vec4 own_light_of(const Mesh& mesh, const Corners& corners) {
+    return {0, 0, 0, mesh.material_of(corners.vertex[2]).unlit ? 255 : 0};
+}
+
 struct Influences {
     glm::u16vec4 joints{0};
     glm::vec4 weights{0.0f};
@@ -108,6 +113,8 @@ void describe(const Mesh& mesh, const PosedMesh& pose, PointModel& model) {
     model.normals.resize(count);
     model.colors.resize(count);
     model.slots.resize(count);
+    const bool shines = model::has_own_light(mesh);
+    model.own_lights.resize(shines ? count : 0);
     model.joints.resize(count);
     model.weights.resize(count);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1024), [&](const auto& range) {
@@ -117,6 +124,7 @@ void describe(const Mesh& mesh, const PosedMesh& pose, PointModel& model) {
             model.normals[i] = normal_of(corners, pose);
             model.colors[i] = color_of(mesh, corners);
             model.slots[i] = mesh.slots[corners.nearest()];
+            if (shines) model.own_lights[i] = own_light_of(mesh, corners);
             const Influences influences = influences_of(mesh, corners);
             model.joints[i] = influences.joints;
             model.weights[i] = influences.weights;

@@ -56,10 +56,11 @@ void check_layout(const PointsHeader& header, std::uint64_t size) {
         fail(std::to_string(header.coverage) + " entries of coverage", "as many as it holds");
     if (header.key_bytes > most_key_bytes)
         fail("a key of " + std::to_string(header.key_bytes) + " bytes", "at most 65536");
-    const PointsLayout layout = layout_of(header.points, header.coverage, header.key_bytes);
+    const PointsLayout layout = layout_of(header.points, header.coverage, header.key_bytes, header.own_lights != 0);
     if (layout.file_bytes() != size)
         fail(std::to_string(size) + " bytes", std::to_string(layout.file_bytes()) + " for its counts");
-    if (header.offsets != layout.offsets) fail("sections at other places", "those of its counts");
+    if (header.offsets != layout.offsets || header.own_lights != layout.own_lights)
+        fail("sections at other places", "those of its counts");
 }
 
 void check_checksum(const void* bytes, std::uint64_t size) {
@@ -140,6 +141,7 @@ PointsHeader header_for(const PointModel& model, const motion::Bounds& box, std:
     header.area = model.area;
     header.key_bytes = static_cast<std::uint32_t>(key_bytes);
     header.offsets = layout.offsets;
+    header.own_lights = layout.own_lights;
     header.origin = {model.origin.x, model.origin.y, model.origin.z};
     return header;
 }
@@ -163,9 +165,9 @@ PointsFile::PointsFile(const std::filesystem::path& path) {
     model::with_name(path, [&] {
         const model::InputFile file(path, "a .pts file");
         size_ = static_cast<std::size_t>(file.left());
-        if (size_ < layout_of(0, 0, 0).file_bytes())
+        if (size_ < layout_of(0, 0, 0, false).file_bytes())
             fail(std::to_string(size_) + " bytes",
-                 "a .pts file, of at least " + std::to_string(layout_of(0, 0, 0).file_bytes()));
+                 "a .pts file, of at least " + std::to_string(layout_of(0, 0, 0, false).file_bytes()));
         bytes_ = mmap(nullptr, size_, PROT_READ, MAP_PRIVATE, file.descriptor(), 0);
         if (bytes_ == MAP_FAILED)
             fail("a file that can't be mapped (" + std::generic_category().message(errno) + ")", "a .pts file");
@@ -260,6 +262,10 @@ PointModel PointsFile::unpack() const {
         model.joints.emplace_back(joints[0], joints[1], joints[2], joints[3]);
     for (const Weights& weights : section_of<Weights>(bytes_, weight_section))
         model.weights.push_back(unpack_weights(weights));
+    if (header.own_lights != 0) {
+        const auto* first = reinterpret_cast<const glm::u8vec4*>(static_cast<const char*>(bytes_) + header.own_lights);
+        model.own_lights.assign(first, first + header.points);
+    }
     const auto spacing = section_of<float>(bytes_, spacing_section);
     model.spacing.assign(spacing.begin(), spacing.end());
     const auto coverage = section_of<Coverage>(bytes_, coverage_section);
@@ -289,9 +295,10 @@ void write_pts(std::ostream& out, const PointModel& model, const std::string& ke
     assert(key.size() <= most_key_bytes);
     assert(model.surface.size() == count && model.normals.size() == count && model.colors.size() == count &&
            model.slots.size() == count && model.joints.size() == count && model.weights.size() == count &&
-           model.spacing.size() == count);
+           model.spacing.size() == count && (model.own_lights.empty() || model.own_lights.size() == count));
     const motion::Bounds box = box_of(model);
-    const PointsLayout layout = layout_of(count, model.coverage.size(), key.size());
+    const bool has_own_lights = !model.own_lights.empty();
+    const PointsLayout layout = layout_of(count, model.coverage.size(), key.size(), has_own_lights);
     const PointsHeader header = header_for(model, box, key.size(), layout);
     Writer writer(out);
     writer.write(&header, sizeof header);
@@ -309,6 +316,8 @@ void write_pts(std::ostream& out, const PointModel& model, const std::string& ke
     section(spacing_section, count, [&](std::size_t i) { return model.spacing[i]; });
     section(alpha_section, count, [&](std::size_t i) { return model.colors[i].a; });
     section(coverage_section, model.coverage.size(), [&](std::size_t i) { return model.coverage[i]; });
+    if (has_own_lights)
+        writer.write_section(layout.own_lights, count, [&](std::size_t i) { return model.own_lights[i]; });
     writer.pad_to(layout.checksum);
     writer.write_checksum();
 }

@@ -57,7 +57,8 @@ private:
 // What unpack() of the model's file gives: for programs that may find it kept or not, and shall do the same.
 PointModel as_stored(const PointModel& model);
 
-// `key` may be anything up to 64 KiB. The model's lists are of one length, as PointModel says. 37 bytes a point.
+// `key` may be anything up to 64 KiB. The model's lists are of one length, as PointModel says. 37 bytes a point, 41
+// where some have a light of their own.
 void write_pts(std::ostream& out, const PointModel& model, const std::string& key);
 
 // x y z nx ny nz red green blue, in the model's order. x y z are doubles if the model's origin is not 0, which they

@@ -23,6 +23,8 @@ enum Section {
     coverage_section
 };
 inline constexpr std::size_t section_count = 9;
+// After the last, of models that have any: own lights, 4 bytes a point.
+inline constexpr std::uint64_t own_light_bytes = 4;
 
 struct PointsHeader {
     std::array<char, 8> magic;
@@ -37,7 +39,8 @@ struct PointsHeader {
     std::uint32_t key_bytes;
     std::array<std::uint64_t, section_count> offsets;
     std::array<double, 3> origin;
-    std::array<std::uint64_t, 2> reserved;  // 0
+    std::uint64_t own_lights;  // their offset; 0: none
+    std::uint64_t reserved;    // 0
 };
 static_assert(sizeof(PointsHeader) == 192);
 
@@ -54,18 +57,25 @@ inline constexpr std::uint64_t bytes_per_point = 12 + 4 + 4 + 8 + 4 + 4 + 1;
 
 struct PointsLayout {
     std::array<std::uint64_t, section_count> offsets;
-    std::uint64_t checksum;  // its offset
+    std::uint64_t own_lights;  // 0: none
+    std::uint64_t checksum;    // its offset
     std::uint64_t file_bytes() const { return checksum + 8; }
 };
 
 // Must not overflow: check the counts against the file's size before.
-constexpr PointsLayout layout_of(std::uint64_t points, std::uint64_t coverage, std::uint64_t key_bytes) {
+constexpr PointsLayout layout_of(std::uint64_t points, std::uint64_t coverage, std::uint64_t key_bytes,
+                                 bool has_own_lights) {
     PointsLayout layout{};
     std::uint64_t end = sizeof(PointsHeader);
+    const auto aligned = [&] { return (end + points_alignment - 1) / points_alignment * points_alignment; };
     for (std::size_t i = 0; i < section_count; ++i) {
         const std::uint64_t count = i == key_section ? key_bytes : i == coverage_section ? coverage : points;
-        layout.offsets[i] = (end + points_alignment - 1) / points_alignment * points_alignment;
+        layout.offsets[i] = aligned();
         end = layout.offsets[i] + count * element_bytes[i];
+    }
+    if (has_own_lights) {
+        layout.own_lights = aligned();
+        end = layout.own_lights + points * own_light_bytes;
     }
     layout.checksum = (end + 7) / 8 * 8;
     return layout;

@@ -23,6 +23,7 @@ std::size_t nearest_of_prefix(const PointModel& model, std::size_t point, std::s
 struct PrefixLook {
     glm::u8vec4 color;                                   // of the light, sRGB-encoded
     std::array<std::uint8_t, model::slot_count> shares;  // of slots 1 to slot_count, unorm; the rest is no_slot's
+    glm::u8vec4 own_light;                               // as PointModel has it, of the light
 };
 
 // One element for each of the first `count` points, as if there were no others; count in [1, model.size()].

@@ -48,7 +48,8 @@ CONSTANT attribute_palette = 6;    // slot_vectors of uint 32 x 4: sRGB of slots
 // Behind it: of vertices uv, half x 2; of points slot_vectors of unorm 8 x 4, shares of slots 1 to slot_count.
 CONSTANT attribute_uv = attribute_palette + slot_vectors;
 CONSTANT attribute_shares = attribute_palette + slot_vectors;
-CONSTANT attribute_alpha = attribute_uv + 1;  // unorm 8, of vertices whose materials need it
+CONSTANT attribute_alpha = attribute_uv + 1;                     // unorm 8, of vertices whose materials need it
+CONSTANT attribute_own_light = attribute_shares + slot_vectors;  // unorm 8 x 4, of points that have any
 
 // Vertex attributes of very far people, who stay where they are.
 CONSTANT attribute_far_center = 0;     // the middle, from the block's origin [m]; side of a square as large as the
@@ -75,8 +76,11 @@ CONSTANT look_slot_bits = 3;
 CONSTANT no_layer = 31;
 // Where materials differ in more than their texture, looks hold the number of one of these instead of a layer.
 CONSTANT texturing_count = 32;
-CONSTANT uniform_texturings = 1;  // as shaders/texturing.glsl says; w: alpha below which there is nothing
-CONSTANT wrap_repeat = 0;         // model::Wrap
+// As shaders/texturing.glsl says; w: alpha below which there is nothing.
+CONSTANT uniform_texturings = 1;
+CONSTANT texturing_nearest = 1;  // bits of their z
+CONSTANT texturing_unlit = 2;    // the colour is seen in any light and shade
+CONSTANT wrap_repeat = 0;        // model::Wrap
 CONSTANT wrap_mirror = 1;
 CONSTANT wrap_clamp = 2;
 CONSTANT texture_unit_layers = 0;

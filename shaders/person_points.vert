@@ -1,6 +1,9 @@
 // One splat of a person.
 #include "person.glsl"
 #include "shares.glsl"
+#ifdef OWN_LIGHT
+layout(location = attribute_own_light) in vec4 own_light;
+#endif
 flat out vec3 splat_color;
 
 void main() {
@@ -14,5 +17,9 @@ void main() {
     gl_PointSize = clamp(whole_person, 1.0, Frame.splat.x);
     // The far side of a closed body is hidden by the near side: drop it before it costs pixels.
     if (away && look == 0u && !is_double_sided()) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
-    splat_color = sqrt(own_color * lit(away ? -normal : normal));
+    vec3 light = lit(away ? -normal : normal);
+#ifdef OWN_LIGHT
+    light = mix(light, vec3(1.0), own_light.a);
+#endif
+    splat_color = sqrt(own_color * light);
 }

@@ -15,7 +15,7 @@ int wrapped_texel(int wrap, int texel, int side) {
     return clamp(texel, 0, side - 1);
 }
 
-// sRGB, and alpha. `texturing`: layer, or no_layer; wrap across + 4 wrap down; nearest; -.
+// sRGB, and alpha. `texturing`: layer, or no_layer; wrap across + 4 wrap down; bits; -.
 vec4 texel_of(sampler2DArray layers, vec4 texturing, vec2 uv) {
     int level = int(textureQueryLod(layers, uv).x + 0.5);  // the one mipmap that the driver would read itself
     int layer = int(texturing.x);
@@ -23,7 +23,8 @@ vec4 texel_of(sampler2DArray layers, vec4 texturing, vec2 uv) {
     int across = int(texturing.y) & 3, down = int(texturing.y) >> 2;
     int side = textureSize(layers, 0).x >> level;  // asked by mipmap, Mesa tells all pixels of a vector the first one's
     vec2 at = vec2(wrapped(across, uv.x), wrapped(down, uv.y)) * float(side);
-    if (texturing.z != 0.0) return texelFetch(layers, ivec3(min(ivec2(at), side - 1), layer), level);
+    bool nearest = (int(texturing.z) & texturing_nearest) != 0;
+    if (nearest) return texelFetch(layers, ivec3(min(ivec2(at), side - 1), layer), level);
     at -= 0.5;
     ivec2 first = ivec2(floor(at));
     vec2 share = at - floor(at);

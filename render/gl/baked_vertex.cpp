@@ -15,7 +15,7 @@ static_assert(offsetof(motion::PosedVertex, normal_u) == 6);
 
 constexpr GLuint vertex_binding = 0;
 constexpr GLuint instance_binding = 1;
-constexpr GLuint alpha_binding = 2;
+constexpr GLuint few_binding = 2;
 
 }  // namespace
 
@@ -57,8 +57,13 @@ VertexArray make_person_array(const Buffer& vertices, const Buffer& instances, E
 }
 
 void add_alphas(const VertexArray& array, const Buffer& alphas) {
-    glVertexArrayVertexBuffer(array.name(), alpha_binding, alphas.name(), 0, 1);
-    add_float(array.name(), attribute_alpha, 1, GL_UNSIGNED_BYTE, true, 0, alpha_binding);
+    glVertexArrayVertexBuffer(array.name(), few_binding, alphas.name(), 0, 1);
+    add_float(array.name(), attribute_alpha, 1, GL_UNSIGNED_BYTE, true, 0, few_binding);
+}
+
+void add_own_lights(const VertexArray& array, const Buffer& own_lights) {
+    glVertexArrayVertexBuffer(array.name(), few_binding, own_lights.name(), 0, sizeof(glm::u8vec4));
+    add_float(array.name(), attribute_own_light, 4, GL_UNSIGNED_BYTE, true, 0, few_binding);
 }
 
 }  // namespace render::gl

@@ -34,8 +34,9 @@ Buffer upload_poses(std::span<const motion::PosedVertex> posed, int per_pose, st
 // What `extra` holds.
 enum class Extra { nothing, uv, shares };
 
-// Of vertices, what few characters need: a byte each, 255 = 1, for a pose after the other.
+// What few characters need, for a pose after the other: of vertices a byte each, 255 = 1; of points own lights.
 void add_alphas(const VertexArray& array, const Buffer& alphas);
+void add_own_lights(const VertexArray& array, const Buffer& own_lights);
 
 // Reads people: `vertices` a BakedVertex at a time, `instances` a person at a time (render::Instance).
 VertexArray make_person_array(const Buffer& vertices, const Buffer& instances, Extra extra);

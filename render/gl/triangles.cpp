@@ -38,7 +38,8 @@ std::uint8_t layer_of(const model::Material& material) {
 
 // What draws a texture as most characters have it won't do.
 bool needs_texturing(const model::Material& material) {
-    return material.alpha_cutoff > 0 || (material.texture != model::no_texture && material.sampler != model::Sampler{});
+    return material.alpha_cutoff > 0 || material.unlit ||
+           (material.texture != model::no_texture && material.sampler != model::Sampler{});
 }
 
 glm::vec4 texturing_of(const model::Material& material) {
@@ -47,7 +48,7 @@ glm::vec4 texturing_of(const model::Material& material) {
                   wrap_clamp == static_cast<int>(model::Wrap::clamp));
     const model::Sampler sampler = material.texture == model::no_texture ? model::Sampler{} : material.sampler;
     return {layer_of(material), static_cast<int>(sampler.across) + 4 * static_cast<int>(sampler.down),
-            sampler.nearest ? 1 : 0, material.alpha_cutoff};
+            (sampler.nearest ? texturing_nearest : 0) | (material.unlit ? texturing_unlit : 0), material.alpha_cutoff};
 }
 
 // For each material the number of its texturing, which is added where it is new. Beyond as many as there may be, the

@@ -99,6 +99,8 @@ PersonMesh::PersonMesh(const figures::Figure& figure)
             corners[corner].push_back(static_cast<std::int32_t>(faces.back().corners[corner]));
     }
     for (auto& list : corners) list.resize((list.size() + group - 1) / group * group);
+    for (std::uint32_t v = 0; v < vertex_count; ++v)
+        if (mesh.material_of(v).unlit) unlit.push_back(v);
     if (model::has_cutouts(mesh))
         for (const glm::u8vec4& color : mesh.colors) alphas.push_back(static_cast<float>(color.a) / 255.0f);
     if (mesh.textures.empty()) return;

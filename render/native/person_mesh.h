@@ -59,6 +59,7 @@ struct PersonMesh {
     std::vector<Face> faces;
     std::array<std::vector<std::int32_t>, 3> corners;  // of faces; filled up with vertex 0 to whole groups
     std::vector<Paint> paints;                         // no two alike
+    std::vector<std::uint32_t> unlit;                  // vertices whose colour is seen in any light and shade
     std::vector<glm::vec2> uvs;                        // one a vertex; none without textures
     std::vector<float> alphas;                         // [0, 1] one a vertex; none without cutouts
     std::vector<Texturing> texturings;                 // no two alike; the first is of neither texture nor cutouts

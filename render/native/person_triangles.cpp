@@ -175,6 +175,7 @@ Rect PersonTriangles::place(const View& view, const Daylight& daylight, const Pe
                           mesh.vertex_count);
     const Extent extent = place_vertices(*placement, daylight, posed, mesh.double_sided, lit_.get(),
                                          places.across.data(), places.down.data());
+    for (const std::uint32_t v : mesh.unlit) std::fill_n(lit_[v].light, 3, 1.0f);
     const bool in_front = nearest >= near_plane;
     if (in_front && pixels_of(view, extent).empty()) return {};
     paint(mesh, person.instance.palette);

@@ -109,6 +109,7 @@ void take_points(const Sight& sight, SplatPerson& out) {
     const bool is_mean = out.count <= longest_mean_prefix;
     out.colors = is_mean ? model.mean_colors(out.count) : model.colors();
     out.slot_shares = is_mean ? model.mean_shares(out.count) : nullptr;
+    out.own_lights = is_mean ? model.mean_own_lights(out.count) : model.own_lights();
     out.slots = model.slots();
 }
 

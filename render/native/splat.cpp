@@ -113,6 +113,11 @@ Vector albedo(const SplatPerson& person, int channel, int chunk, int lane, Vecto
     return times(own, tint);
 }
 
+// The share of a point's colour that is seen in any light and shade.
+Vector seen_anyway(const SplatPerson& person, int chunk, int lane) {
+    return hn::Load(lanes, person.own_lights + (person.slot_shares ? 0 : chunk * chunk_points) + lane);
+}
+
 // Linear light that each point sends, 32767 = 1.
 void find_colors(const SplatPerson& person, const SplatLight& light, int chunk, int lane, Vector* color) {
     Vector normal[3];
@@ -122,8 +127,9 @@ void find_colors(const SplatPerson& person, const SplatLight& light, int chunk, 
     const Vector index =
         hn::Load(lanes, reinterpret_cast<const std::int16_t*>(person.slots) + chunk * chunk_points + lane);
     for (int channel = 0; channel < 3; ++channel) {
-        const Vector lit = hn::Add(hn::Add(all(light.level[channel]), times(normal[1], all(light.slope[channel]))),
-                                   times(sunlit, all(light.sun[channel])));
+        Vector lit = hn::Add(hn::Add(all(light.level[channel]), times(normal[1], all(light.slope[channel]))),
+                             times(sunlit, all(light.sun[channel])));
+        if (person.own_lights) lit = hn::Add(lit, times(hn::Sub(all(16384), lit), seen_anyway(person, chunk, lane)));
         const Vector half = hn::Min(times(lit, albedo(person, channel, chunk, lane, index)), all(16383));
         color[channel] = hn::Add(half, half);
     }

@@ -43,6 +43,7 @@ struct SplatPerson : InDepth {
     std::array<const std::int16_t*, 2> shares;  // the near ones and the far ones
     std::int16_t to_far;
     const std::int16_t* colors;
+    const std::int16_t* own_lights;   // null: nothing has any
     const std::uint16_t* slots;       // of long prefixes
     const std::int16_t* slot_shares;  // of short ones, else null
     bool two_sided;                   // points that face away show their other side

@@ -134,6 +134,12 @@ void SplatModel::pack_looks(const figures::Figure& figure) {
                 linear_of_code[model.colors[point][channel]];
         slots_[i] = table_index(model.slots[point]);
     }
+    if (!model.own_lights.empty()) {
+        own_lights_.resize(std::size_t{chunk_points} * chunks_);
+        mean_own_lights_.resize(std::size_t{chunk_points} * (longest_mean_prefix + 1));
+        for (int i = 0; i < chunks_ * chunk_points; ++i)
+            own_lights_[i] = q15(static_cast<float>(model.own_lights[std::min(i, points_ - 1)].a) / 255.0f);
+    }
     mean_colors_.resize(std::size_t{3} * chunk_points * (longest_mean_prefix + 1));
     mean_shares_.resize(std::size_t{1 + model::slot_count} * chunk_points * (longest_mean_prefix + 1));
     for (int prefix = 1; prefix <= std::min(longest_mean_prefix, points_); ++prefix) {
@@ -143,6 +149,8 @@ void SplatModel::pack_looks(const figures::Figure& figure) {
         for (const pointsample::PrefixLook& look : pointsample::prefix_looks(model, prefix)) {
             for (int channel = 0; channel < 3; ++channel)
                 colors[channel * chunk_points + point] = linear_of_code[look.color[channel]];
+            if (own_lights())
+                mean_own_lights_[prefix * chunk_points + point] = q15(static_cast<float>(look.own_light.a) / 255.0f);
             float untinted = 1.0f;
             for (int slot = 1; slot <= model::slot_count; ++slot) {
                 const float share = static_cast<float>(look.shares[slot - 1]) / 255.0f;
@@ -247,14 +255,15 @@ std::vector<SplatModel::LitPoint> SplatModel::light_points(std::uint32_t pose) c
         const std::int16_t* own = colors() + 3 * chunk_points * (i / chunk_points) + lane;
         const glm::vec3 color = glm::vec3(own[0], own[chunk_points], own[2 * chunk_points]) / 32767.0f;
         const glm::vec3 normal = three(chunk.normal, 127.0f);
+        const float seen_anyway = own_lights() ? own_lights()[i] / 32767.0f : 0.0f;
         lit[i].slot = (slots_[i] & 0xff) / 2;
         lit[i].facet = three(chunk.facet, facet_unit);
         for (int side = 0; side < 2; ++side) {
             const glm::vec3 outward = side == 0 ? normal : -normal;
             const glm::vec3 around = glm::mix(light_.from_below, light_.from_above, 0.5f + 0.5f * outward.y);
             for (int azimuth = 0; azimuth < sun_azimuths; ++azimuth) {
-                const glm::vec3 light =
-                    color * (around + light_.sun * std::max(0.0f, glm::dot(outward, suns[azimuth])));
+                const glm::vec3 falling = around + light_.sun * std::max(0.0f, glm::dot(outward, suns[azimuth]));
+                const glm::vec3 light = color * (falling + seen_anyway * (1.0f - falling));
                 for (int channel = 0; channel < 3; ++channel)
                     lit[i].light[side][3 * azimuth + channel] = light[channel];
             }

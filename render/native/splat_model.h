@@ -53,6 +53,13 @@ public:
         return &mean_shares_[prefix * (1 + model::slot_count) * chunk_points];
     }
 
+    // What is seen of the same colours in any light and shade: [chunk][chunk_points]; of a prefix, [chunk_points].
+    // Null: nothing of any.
+    const std::int16_t* own_lights() const { return own_lights_.size() == 0 ? nullptr : own_lights_.data(); }
+    const std::int16_t* mean_own_lights(int prefix) const {
+        return own_lights_.size() == 0 ? nullptr : &mean_own_lights_[prefix * chunk_points];
+    }
+
     // The shares of the surface that points stand for when so many are drawn: `near` and, by the fraction, `far` ones,
     // 16384 = 1: [chunk][chunk_points].
     struct Blend {
@@ -129,7 +136,7 @@ private:
     bool double_sided_ = false;
     float area_ = 0;
     Array<PosedChunk> first_chunks_, other_chunks_;
-    Array<std::int16_t> colors_, mean_colors_, mean_shares_;
+    Array<std::int16_t> colors_, mean_colors_, mean_shares_, own_lights_, mean_own_lights_;
     Array<std::int16_t> shares_;  // a rung of `rungs_` each, and in the place of those it lacks the next rung's
     std::vector<int> rungs_;      // numbers of points, rising to points_
     Array<std::uint16_t> slots_;

@@ -47,6 +47,7 @@ void expect_same_bits(const PointModel& a, const PointModel& b) {
     EXPECT_TRUE(same_bits(a.normals, b.normals));
     EXPECT_TRUE(same_bits(a.colors, b.colors));
     EXPECT_TRUE(same_bits(a.slots, b.slots));
+    EXPECT_TRUE(same_bits(a.own_lights, b.own_lights));
     EXPECT_TRUE(same_bits(a.joints, b.joints));
     EXPECT_TRUE(same_bits(a.weights, b.weights));
     EXPECT_TRUE(same_bits(a.spacing, b.spacing));
@@ -69,6 +70,16 @@ TEST(PointsFile, WhatIsExactStaysExact) {
     EXPECT_TRUE(same_bits(back.coverage, model.coverage));
     EXPECT_EQ(back.area, model.area);
     EXPECT_EQ(back.hidden_removed, model.hidden_removed);
+}
+
+TEST(PointsFile, OwnLightsAreExactAndCostNothingWhereThereAreNone) {
+    PointModel model = tests::random_model(500, 4);
+    const std::size_t without = written(model).size();
+    EXPECT_TRUE(read_back(written(model)).own_lights.empty());
+    for (std::size_t i = 0; i < model.size(); ++i) model.own_lights.emplace_back(i, 3 * i, 7 * i, 255 - i);
+    EXPECT_EQ(read_back(written(model)).own_lights, model.own_lights);
+    EXPECT_LE(written(model).size(), without + 4 * model.size() + 64);
+    EXPECT_GE(written(model).size(), without + 4 * model.size());
 }
 
 TEST(PointsFile, PositionsAreWithinHalfAStepOfTheBox) {

@@ -198,6 +198,12 @@ private:
         return Shade::between(glm::min(front, back), glm::max(front, back));
     }
 
+    // What is seen of a surface whose colour is in part the same in any light.
+    static Shade partly(double unlit, const Shade& light) {
+        const auto seen = [&](const glm::dvec3& by) { return glm::mix(by, glm::dvec3(1), unlit); };
+        return {seen(light.low), seen(light.high), seen(light.best)};
+    }
+
     void draw_mesh(const Person& person) {
         const model::Mesh& mesh = person.figure->mesh();
         const Surface& surface = person.figure->pose(person.slot, person.tick);
@@ -208,8 +214,9 @@ private:
         for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
             at.push_back(origin + person.scale * (axes * surface.positions[v]));
             albedo.push_back(linear(mesh.colors[v]) * tint_of(person, mesh.slots[v]));
+            const model::Material& material = mesh.materials[mesh.material_ids[v]];
             light.push_back(
-                light_seen(axes * surface.normals[v], at[v], mesh.materials[mesh.material_ids[v]].double_sided));
+                partly(material.unlit, light_seen(axes * surface.normals[v], at[v], material.double_sided)));
         }
         for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
             const std::uint32_t a = mesh.indices[i], b = mesh.indices[i + 1], c = mesh.indices[i + 2];
@@ -356,7 +363,7 @@ private:
             glm::dvec3 tint(0);
             for (std::size_t slot = 0; slot <= model::slot_count; ++slot)
                 tint += looks[p].slots[slot] * tint_of(person, slot);
-            const Shade light = light_seen(facing, at, both_sides);
+            const Shade light = partly(looks[p].unlit, light_seen(facing, at, both_sides));
             splat(person, at, both_sides || away < -edge_on,
                   Shade::between(stored(looks[p].albedo * tint * light.low),
                                  stored(looks[p].albedo * tint * light.high)));

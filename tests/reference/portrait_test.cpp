@@ -6,6 +6,7 @@
 #include "scene/cast.h"
 #include "scene/person.h"
 #include "tests/reference/harlequin.h"
+#include "tests/reference/own_light.h"
 #include "tests/reference/studio.h"
 #include "tests/render/gl_test.h"
 
@@ -102,6 +103,12 @@ TEST_P(RealPortrait, IsTheReferencesByAnyNumberOfPoints) {
 INSTANTIATE_TEST_SUITE_P(Files, RealPortrait,
                          testing::Values("CesiumMan/CesiumMan.glb", "Fox/Fox.glb", "KayKitMage/Mage.glb",
                                          "QuaterniusKnight/KnightCharacter.glb", "RaylibRobot/robot.glb"));
+
+TEST_F(Portrait, OfTheUnlitIsTheReferences) {
+    const Model model(reference::make_shining_harlequin(reference::Shine::unlit), {0, 1}, 400);
+    expect_alike_all_around(model);
+    expect_alike_by_every_number_of_points(model);
+}
 
 // Neighbours in front of and behind one another, some as triangles, some as points, whose batches follow one another in
 // every way there is.

@@ -85,10 +85,14 @@ const std::vector<Figure::Look>& Figure::looks(std::size_t count) const {
         if (p < count) owner = p;
         const glm::dvec3 code = glm::dvec3(points_->colors[p]) / 255.0;
         sums[owner].albedo += code * code;
+        const std::uint32_t corner = mesh_->indices[3 * std::size_t{points_->surface[p].triangle} + 2];
+        if (mesh_->materials[mesh_->material_ids[corner]].unlit) sums[owner].unlit += glm::dot(code, code);
         sums[owner].slots[points_->slots[p]] += 1;
         ++members[owner];
     }
     for (std::size_t p = 0; p < count; ++p) {
+        const double light = sums[p].albedo.r + sums[p].albedo.g + sums[p].albedo.b;
+        if (light > 0) sums[p].unlit /= light;
         sums[p].albedo /= members[p];
         for (double& share : sums[p].slots) share /= members[p];
     }

@@ -52,6 +52,7 @@ public:
     // How one of the first `count` points looks when there are no others.
     struct Look {
         glm::dvec3 albedo;                    // linear
+        double unlit;                         // [0, 1] the share of it that is seen in any light and shade
         double slots[1 + model::slot_count];  // shares by slot, sum 1
     };
     const std::vector<Look>& looks(std::size_t count) const;

@@ -1,0 +1,83 @@
+// A character of several colours, textures and slots that can be made to shine by itself, and pictures of it.
+#pragma once
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+#include <string>
+
+#include "tests/reference/harlequin.h"
+#include "tests/reference/studio.h"
+
+namespace reference {
+
+enum class Shine { no, unlit };
+
+inline model::Character make_shining_harlequin(Shine shine) {
+    model::Character harlequin = make_harlequin(true);
+    harlequin.name = shine == Shine::no ? "dull harlequin" : "unlit harlequin";
+    for (model::Material& material : harlequin.mesh.materials) material.unlit = shine == Shine::unlit;
+    return harlequin;
+}
+
+// Before a black sky.
+inline scene::Light before_black(const glm::vec3& from_above, const glm::vec3& from_below, const glm::vec3& sun) {
+    scene::Light light;
+    light.glare = light.haze = light.zenith = glm::vec3(0);
+    light.from_above = from_above;
+    light.from_below = from_below;
+    light.sun = sun;
+    return light;
+}
+// That shows everything in its own colour; that doesn't; and none.
+inline scene::Light plain_light() {
+    return before_black(glm::vec3(1), glm::vec3(1), glm::vec3(0));
+}
+inline scene::Light odd_light() {
+    return before_black({0.2f, 0.3f, 0.7f}, {0.1f, 0, 0}, {1.3f, 0.4f, 0.1f});
+}
+inline scene::Light no_light() {
+    return before_black(glm::vec3(0), glm::vec3(0), glm::vec3(0));
+}
+
+// Where one model is seen in one light.
+template <typename Renderer>
+class Booth {
+public:
+    Booth(const Model& model, const scene::Light& light, const figures::Way& way)
+        : model_(model),
+          way_(way),
+          renderer_(scene::StaticMesh{}, scene::Ground{}, light, std::vector{model.product()}, width, height) {}
+
+    // By so many points (0: triangles), from one of several sides.
+    render::Image shoot(std::size_t points, int side) {
+        Person person = sitter(model_, side % 2, 7 * side);
+        person.points = points;
+        const scene::CameraPose pose = camera(person, 1.3 * side, 0.2, points == 0 ? 3 : 12);
+        const render::View view = render::make_view(pose, width, height);
+        const Model* const models[] = {&model_};
+        renderer_.begin(view);
+        renderer_.draw(frame_of({&person, 1}, models, view, points == 0 ? 0 : 2, way_));
+        return renderer_.read_image();
+    }
+
+private:
+    static constexpr int width = 120, height = 100;  // [px]
+
+    const Model& model_;
+    const figures::Way& way_;
+    Renderer renderer_;
+};
+
+// [of 255] in any channel of any pixel.
+inline int worst_difference(const render::Image& a, const render::Image& b) {
+    int worst = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) worst = std::max(worst, std::abs(a.pixels[i] - b.pixels[i]));
+    return worst;
+}
+
+inline int brightest(const render::Image& image) {
+    return *std::ranges::max_element(image.pixels);
+}
+
+}  // namespace reference

@@ -1,0 +1,103 @@
+// What shines by itself, natively: as points and as triangles, in any light.
+#include "tests/reference/own_light.h"
+
+#include <gtest/gtest.h>
+
+#include "render/native/splat_model.h"
+
+namespace {
+
+using reference::Shine;
+using Booth = reference::Booth<render::native::Renderer>;
+
+constexpr std::size_t point_count = 1500;
+// Triangles; what stands for both sides, what is a mean, what is summed up, and more.
+constexpr std::size_t counts[] = {0, 7, 20, 60, 300, 1200};
+
+const reference::Model& dull() {
+    static const reference::Model model(reference::make_shining_harlequin(Shine::no), {0, 1}, point_count);
+    return model;
+}
+const reference::Model& unlit() {
+    static const reference::Model model(reference::make_shining_harlequin(Shine::unlit), {0, 1}, point_count);
+    return model;
+}
+
+TEST(NativeOwnLight, TheUnlitShowTheirColoursInAnyLight) {
+    constexpr int rounding = 2;  // [of 255] of sums in 16 bits, where it is dark
+    Booth plain(dull(), reference::plain_light(), figures::natively());
+    Booth lit(dull(), reference::odd_light(), figures::natively());
+    Booth shining(unlit(), reference::odd_light(), figures::natively());
+    Booth in_the_dark(unlit(), reference::no_light(), figures::natively());
+    for (const std::size_t points : counts)
+        for (const int side : {0, 1, 2, 3}) {
+            const render::Image expected = plain.shoot(points, side);
+            EXPECT_GT(reference::brightest(expected), 100);
+            EXPECT_GT(reference::worst_difference(expected, lit.shoot(points, side)), 20);
+            for (Booth* booth : {&shining, &in_the_dark})
+                EXPECT_LE(reference::worst_difference(expected, booth->shoot(points, side)), rounding)
+                    << points << " points from side " << side;
+        }
+}
+
+// What very far people and the few points of far ones show.
+TEST(NativeOwnLight, FromFarTheUnlitSendTheirColoursInAnyLight) {
+    const render::native::SplatModel plain(dull().product(), reference::plain_light());
+    for (const scene::Light& light : {reference::odd_light(), reference::no_light()}) {
+        const render::native::SplatModel shining(unlit().product(), light);
+        for (const int azimuth : {0, 3, 6})
+            for (int node = 0; node < render::native::direction_nodes; node += 7) {
+                const auto expected = plain.lights(2, azimuth, node), found = shining.lights(2, azimuth, node);
+                for (std::size_t slot = 0; slot < expected.size(); ++slot)
+                    for (int channel = 0; channel < 3; ++channel)
+                        EXPECT_NEAR(found[slot][channel], expected[slot][channel], 1e-3);
+            }
+    }
+}
+
+TEST(ReferenceOwnLight, TheUnlitShowTheirColours) {
+    model::Character character = reference::make_shining_harlequin(Shine::unlit);
+    character.mesh.materials.resize(1);
+    std::ranges::fill(character.mesh.material_ids, std::uint16_t{0});
+    std::ranges::fill(character.mesh.slots, model::no_slot);
+    const glm::u8vec4 color(200, 120, 60, 255);
+    std::ranges::fill(character.mesh.colors, color);
+    const reference::Model model(std::move(character), {0, 1}, 100);
+    for (const std::size_t points : {0, 6, 96}) {
+        reference::Person person = reference::sitter(model, 0, 0);
+        person.points = points;
+        const reference::Picture picture =
+            reference::draw({{reference::camera(person, 1, 0.2, 4), 60, 50}, {person}, nullptr, {}, 0, 4});
+        int seen = 0;
+        for (std::size_t i = 0; i < picture.colors.size(); ++i) {
+            if (picture.shades[i].size() > 1 || picture.sky[i]) continue;
+            ++seen;
+            for (int channel = 0; channel < 3; ++channel) EXPECT_NEAR(picture.colors[i][channel], color[channel], 1e-6);
+        }
+        EXPECT_GT(seen, 10) << points;
+    }
+}
+
+TEST(NativeOwnLight, IsTheReferences) {
+    constexpr int width = 200, height = 160;  // [px]
+    const scene::StaticMesh nothing{{{}, {}, {}}, {0, 0, 0}, {}};
+    const auto renderer =
+        reference::make_renderer(figures::natively(), nothing, {}, std::vector{unlit().product()}, width, height);
+    const reference::Model* const models[] = {&unlit()};
+    for (const reference::Sitting& one : reference::all_around(unlit(), {1.2, 12.0})) {
+        const render::View view = render::make_view(one.pose, width, height);
+        renderer->begin(view);
+        renderer->draw(reference::frame_of({&one.person, 1}, models, view, 0, figures::natively()));
+        const reference::Comparison found = reference::compare(
+            renderer->read_image(), reference::draw({{one.pose, width, height},
+                                                     {one.person},
+                                                     nullptr,
+                                                     {},
+                                                     0,
+                                                     0,
+                                                     reference::samples_of(figures::natively(), 0)}));
+        EXPECT_LE(found.wrong, 1 + found.pixels / 1000) << one.what << ": " << found.text();
+    }
+}
+
+}  // namespace
