@@ -68,7 +68,13 @@ glm::u8vec4 color_of(const Mesh& mesh, const Corners& corners) {
 }
 
 glm::u8vec4 own_light_of(const Mesh& mesh, const Corners& corners) {
-    return {0, 0, 0, mesh.material_of(corners.vertex[2]).unlit ? 255 : 0};
+    const model::Material& material = mesh.material_of(corners.vertex[2]);
+    if (material.unlit) return {0, 0, 0, 255};
+    glm::vec3 light = material.emissive;
+    if (material.emissive_texture != model::no_texture)
+        light *= glm::vec3(model::texture_at(mesh.textures[material.emissive_texture], material.sampler,
+                                             corners.blend([&](std::uint32_t i) { return mesh.uvs[i]; })));
+    return {model::srgb_of_linear(light.r), model::srgb_of_linear(light.g), model::srgb_of_linear(light.b), 0};
 }
 
 struct Influences {

@@ -28,7 +28,8 @@ struct PointModel {
     std::vector<glm::vec3> normals;             // unit; interpolated from the vertices
     std::vector<glm::u8vec4> colors;            // vertex colour x texture, sRGB-encoded
     std::vector<model::Slot> slots;
-    // Seen in any light and shade: alpha is the share of the colour that is, 255 = all. None if no point has any.
+    // Seen in any light and shade: what a point emits, sRGB-encoded, and in alpha the share of its colour, 255 = all.
+    // None if no point has any.
     std::vector<glm::u8vec4> own_lights;
     std::vector<glm::u16vec4> joints;  // the four heaviest of the triangle's
     std::vector<glm::vec4> weights;    // >= 0, sum 1

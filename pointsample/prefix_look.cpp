@@ -30,6 +30,7 @@ namespace {
 struct Sum {
     glm::vec3 light{0.0f};                             // the shaders' linear: sRGB squared, each in [0, 1]
     std::array<float, 1 + model::slot_count> slots{};  // points of each, no_slot first
+    glm::vec3 emitted{0.0f};
     float seen_anyway = 0;  // of the light's channels together, what is seen in any light and shade
     float points = 0;
 };
@@ -42,6 +43,8 @@ PrefixLook mean(const Sum& sum) {
     const glm::vec3 color = glm::sqrt(sum.light / sum.points);
     PrefixLook look{{unorm8(color.r), unorm8(color.g), unorm8(color.b), 255}, {}, {}};
     for (std::size_t i = 0; i < look.shares.size(); ++i) look.shares[i] = unorm8(sum.slots[i + 1] / sum.points);
+    const glm::vec3 emitted = glm::sqrt(sum.emitted / sum.points);
+    look.own_light = {unorm8(emitted.r), unorm8(emitted.g), unorm8(emitted.b), 0};
     const float light = sum.light.r + sum.light.g + sum.light.b;
     if (light > 0.0f) look.own_light.a = unorm8(std::min(sum.seen_anyway / light, 1.0f));
     return look;
@@ -57,8 +60,11 @@ std::vector<PrefixLook> prefix_looks(const PointModel& model, std::size_t count)
         const glm::vec3 color = glm::vec3(model.colors[point]) / 255.0f;
         const glm::vec3 light = color * color;
         sum.light += light;
-        if (!model.own_lights.empty())
-            sum.seen_anyway += (light.r + light.g + light.b) * static_cast<float>(model.own_lights[point].a) / 255.0f;
+        if (!model.own_lights.empty()) {
+            const glm::vec4 own = glm::vec4(model.own_lights[point]) / 255.0f;
+            sum.emitted += glm::vec3(own * own);
+            sum.seen_anyway += (light.r + light.g + light.b) * own.a;
+        }
         sum.slots[model.slots[point]] += 1.0f;
         sum.points += 1.0f;
     }

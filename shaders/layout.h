@@ -76,7 +76,8 @@ CONSTANT look_slot_bits = 3;
 CONSTANT no_layer = 31;
 // Where materials differ in more than their texture, looks hold the number of one of these instead of a layer.
 CONSTANT texturing_count = 32;
-// As shaders/texturing.glsl says; w: alpha below which there is nothing.
+// Two for each: as shaders/texturing.glsl says, w: alpha below which there is nothing; what is emitted, linear, w:
+// times which layer.
 CONSTANT uniform_texturings = 1;
 CONSTANT texturing_nearest = 1;  // bits of their z
 CONSTANT texturing_unlit = 2;    // the colour is seen in any light and shade

@@ -17,9 +17,9 @@ void main() {
     gl_PointSize = clamp(whole_person, 1.0, Frame.splat.x);
     // The far side of a closed body is hidden by the near side: drop it before it costs pixels.
     if (away && look == 0u && !is_double_sided()) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
-    vec3 light = lit(away ? -normal : normal);
+    vec3 sent = own_color * lit(away ? -normal : normal);
 #ifdef OWN_LIGHT
-    light = mix(light, vec3(1.0), own_light.a);
+    sent = mix(sent, own_color, own_light.a) + linear(own_light.rgb);
 #endif
-    splat_color = sqrt(own_color * light);
+    splat_color = sqrt(sent);
 }

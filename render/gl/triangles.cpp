@@ -4,6 +4,7 @@
 #include <iterator>
 #include <span>
 
+#include "model/own_light.h"
 #include "render/gl/baked_vertex.h"
 #include "render/gl/figure_drawer.h"
 #include "render/gl/program.h"
@@ -17,6 +18,14 @@ namespace {
 
 static_assert(slot_count == model::slot_count && slot_count < 1 << look_slot_bits);
 
+// As shaders/layout.h has it.
+struct Texturing {
+    glm::vec4 base, emission;
+
+    bool operator==(const Texturing&) const = default;
+};
+static_assert(sizeof(Texturing) == 2 * sizeof(glm::vec4));
+
 struct Objects {
     Buffer vertices, indices;
     VertexArray array;
@@ -24,7 +33,7 @@ struct Objects {
     GLuint vertex_count = 0;
     Buffer alphas;  // none without texturings
     // What materials differ in, if it is more than their texture (shaders/texturing.glsl).
-    std::vector<glm::vec4> texturings;
+    std::vector<Texturing> texturings;
     bool double_sided = false, textured = false;
 };
 
@@ -32,36 +41,40 @@ std::uint8_t look_of(model::Slot slot, std::uint8_t layer) {
     return static_cast<std::uint8_t>(static_cast<unsigned>(slot) | (static_cast<unsigned>(layer) << look_slot_bits));
 }
 
-std::uint8_t layer_of(const model::Material& material) {
-    return material.texture == model::no_texture ? no_layer : material.texture;
+std::uint8_t layer_of(std::uint8_t texture) {
+    return texture == model::no_texture ? no_layer : texture;
 }
 
 // What draws a texture as most characters have it won't do.
 bool needs_texturing(const model::Material& material) {
-    return material.alpha_cutoff > 0 || material.unlit ||
+    return material.alpha_cutoff > 0 || model::has_own_light(material) ||
            (material.texture != model::no_texture && material.sampler != model::Sampler{});
 }
 
-glm::vec4 texturing_of(const model::Material& material) {
+Texturing texturing_of(const model::Material& material) {
     static_assert(wrap_repeat == static_cast<int>(model::Wrap::repeat) &&
                   wrap_mirror == static_cast<int>(model::Wrap::mirror) &&
                   wrap_clamp == static_cast<int>(model::Wrap::clamp));
-    const model::Sampler sampler = material.texture == model::no_texture ? model::Sampler{} : material.sampler;
-    return {layer_of(material), static_cast<int>(sampler.across) + 4 * static_cast<int>(sampler.down),
-            (sampler.nearest ? texturing_nearest : 0) | (material.unlit ? texturing_unlit : 0), material.alpha_cutoff};
+    const std::uint8_t emissive = model::emits(material) ? material.emissive_texture : model::no_texture;
+    const bool textured = material.texture != model::no_texture || emissive != model::no_texture;
+    const model::Sampler sampler = textured ? material.sampler : model::Sampler{};
+    const glm::vec3 emission = model::emission_of(material);
+    return {{layer_of(material.texture), static_cast<int>(sampler.across) + 4 * static_cast<int>(sampler.down),
+             (sampler.nearest ? texturing_nearest : 0) | (material.unlit ? texturing_unlit : 0), material.alpha_cutoff},
+            {emission * emission, layer_of(emissive)}};
 }
 
 // For each material the number of its texturing, which is added where it is new. Beyond as many as there may be, the
 // first of the same texture serves.
-std::vector<std::uint8_t> number_texturings(const model::Mesh& mesh, std::vector<glm::vec4>& texturings) {
+std::vector<std::uint8_t> number_texturings(const model::Mesh& mesh, std::vector<Texturing>& texturings) {
     std::vector<std::uint8_t> numbers;
     for (const model::Material& material : mesh.materials) {
-        const glm::vec4 wanted = texturing_of(material);
+        const Texturing wanted = texturing_of(material);
         auto place = std::ranges::find(texturings, wanted);
         if (place == texturings.end() && texturings.size() < texturing_count)
             place = texturings.insert(place, wanted);
         else if (place == texturings.end())
-            place = std::ranges::find(texturings, wanted.x, [](const glm::vec4& known) { return known.x; });
+            place = std::ranges::find(texturings, wanted.base.x, [](const Texturing& known) { return known.base.x; });
         numbers.push_back(place == texturings.end() ? 0 : static_cast<std::uint8_t>(place - texturings.begin()));
     }
     return numbers;
@@ -109,7 +122,7 @@ public:
         if (has_texturings)
             layers = number_texturings(mesh, objects.texturings);
         else
-            std::ranges::transform(mesh.materials, std::back_inserter(layers), layer_of);
+            std::ranges::transform(mesh.materials, std::back_inserter(layers), layer_of, &model::Material::texture);
         objects.vertices = upload_poses(figure.poses->vertices, figure.poses->vertex_count, records_of(mesh, layers));
         objects.indices = upload<std::uint32_t>(mesh.indices);
         objects.vertex_count = static_cast<GLuint>(mesh.vertex_count());
@@ -132,8 +145,8 @@ public:
         if (objects.textured) glBindTextureUnit(texture_unit_layers, objects.layers.name());
         glUseProgram(program_of(objects).name());
         if (!objects.texturings.empty())
-            glUniform4fv(uniform_texturings, static_cast<GLsizei>(objects.texturings.size()),
-                         &objects.texturings.front().x);
+            glUniform4fv(uniform_texturings, 2 * static_cast<GLsizei>(objects.texturings.size()),
+                         &objects.texturings.front().base.x);
         glBindVertexArray(objects.array.name());
         glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset), count, 0);
         glEnable(GL_CULL_FACE);

@@ -51,6 +51,8 @@ void sum_up(std::vector<SeenPoint>& points, Leaning& leaning) {
         sum *= share / sun_azimuths;
         leaning.mean[point.lit->slot] += sum;
         leaning.lean[point.lit->slot] += (0.5f - t) * sum;
+        leaning.mean[model::no_slot] += share * point.lit->emitted;
+        leaning.lean[model::no_slot] += (0.5f - t) * share * point.lit->emitted;
     }
 }
 

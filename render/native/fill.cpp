@@ -122,6 +122,9 @@ struct RichShading {
     float depth_second, depth_third;
     Texels texels;
     float alpha_cutoff;
+    bool emits;
+    glm::vec3 emission;  // times `full`, and what its texels show
+    Texels emissive_texels;
 };
 
 struct Color {
@@ -248,6 +251,18 @@ bool keep_surface(const RichShading& s, VFloat second, VFloat third, FloatMask& 
     return !hn::AllFalse(f, mask);
 }
 
+// Few surfaces need it. `second`, `third`: in perspective.
+HWY_NOINLINE void add_emission(const RichShading& s, VFloat second, VFloat third, Color& shown) {
+    const Floats f;
+    Color own{hn::Set(f, s.emission.r), hn::Set(f, s.emission.g), hn::Set(f, s.emission.b)};
+    if (s.emissive_texels.data != nullptr) {
+        const Color texture = texel(s.emissive_texels, between(s.at.u, s.to_second.u, s.to_third.u, second, third),
+                                    between(s.at.v, s.to_second.v, s.to_third.v, second, third));
+        own = {hn::Mul(own.red, texture.red), hn::Mul(own.green, texture.green), hn::Mul(own.blue, texture.blue)};
+    }
+    shown = {hn::Add(shown.red, own.red), hn::Add(shown.green, own.green), hn::Add(shown.blue, own.blue)};
+}
+
 // `second`, `third`: how much of those corners each sample is.
 void shade(const RichShading& s, VFloat second, VFloat third, FloatMask mask, const Block& block, int lane) {
     const Floats f;
@@ -267,6 +282,7 @@ void shade(const RichShading& s, VFloat second, VFloat third, FloatMask mask, co
         shown = {hn::Mul(shown.red, texture.red), hn::Mul(shown.green, texture.green),
                  hn::Mul(shown.blue, texture.blue)};
     }
+    if (s.emits) add_emission(s, second, third, shown);
     store(shown.red, shown.green, shown.blue, mask, block, lane);
 }
 
@@ -316,11 +332,19 @@ RichShading rich_shading(const TextureLayers& textures, const Corner (&corners)[
                         corners[1].depth,
                         corners[2].depth,
                         {},
-                        texturing.alpha_cutoff};
-    if (texturing.layer == untextured) return shading;
+                        texturing.alpha_cutoff,
+                        texturing.emission != glm::vec3(0),
+                        full * texturing.emission,
+                        {}};
+    if (texturing.layer == untextured && texturing.emissive_layer == untextured) return shading;
     const int level = mipmap(textures, corners, slopes);
-    shading.texels = {reinterpret_cast<const std::int32_t*>(textures.texels(texturing.layer, level)),
-                      textures.side(level), texturing.sampler, texturing.sampler == model::Sampler{}};
+    const auto texels = [&](std::uint8_t layer) -> Texels {
+        if (layer == untextured) return {};
+        return {reinterpret_cast<const std::int32_t*>(textures.texels(layer, level)), textures.side(level),
+                texturing.sampler, texturing.sampler == model::Sampler{}};
+    };
+    shading.texels = texels(texturing.layer);
+    shading.emissive_texels = texels(texturing.emissive_layer);
     return shading;
 }
 

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "model/cutout.h"
+#include "model/own_light.h"
 #include "render/native/vertices.h"
 #include "render/texture_layers.h"
 
@@ -52,6 +53,14 @@ std::uint16_t number_of(const model::Material& material, std::vector<Texturing>&
     if (material.texture != model::no_texture) {
         wanted.layer = material.texture;
         wanted.sampler = material.sampler;
+    }
+    if (model::emits(material)) {
+        const glm::vec3 emission = model::emission_of(material);
+        wanted.emission = emission * emission;
+        if (material.emissive_texture != model::no_texture) {
+            wanted.emissive_layer = material.emissive_texture;
+            wanted.sampler = material.sampler;
+        }
     }
     const auto place = std::ranges::find(known, wanted);
     const auto number = static_cast<std::uint16_t>(place - known.begin());

@@ -41,6 +41,9 @@ struct Texturing {
     std::uint8_t layer = untextured;
     model::Sampler sampler;
     float alpha_cutoff = 0;  // model::Material's
+    // Light that is added, linear; times what a layer shows.
+    glm::vec3 emission{0};
+    std::uint8_t emissive_layer = untextured;
 
     bool operator==(const Texturing&) const = default;
 };
@@ -62,7 +65,7 @@ struct PersonMesh {
     std::vector<std::uint32_t> unlit;                  // vertices whose colour is seen in any light and shade
     std::vector<glm::vec2> uvs;                        // one a vertex; none without textures
     std::vector<float> alphas;                         // [0, 1] one a vertex; none without cutouts
-    std::vector<Texturing> texturings;                 // no two alike; the first is of neither texture nor cutouts
+    std::vector<Texturing> texturings;                 // no two alike; the first is of nothing of it
     TextureLayers textures;
 
     explicit PersonMesh(const figures::Figure& figure);  // refers to the figure's poses

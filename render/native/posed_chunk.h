@@ -7,6 +7,7 @@
 namespace render::native {
 
 inline constexpr int chunk_points = 32;
+inline constexpr int own_light_values = 4;  // of a point that may shine (splat_model.h)
 
 struct alignas(64) PosedChunk {
     std::array<std::array<std::int16_t, chunk_points>, 3>

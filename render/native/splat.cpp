@@ -113,9 +113,11 @@ Vector albedo(const SplatPerson& person, int channel, int chunk, int lane, Vecto
     return times(own, tint);
 }
 
-// The share of a point's colour that is seen in any light and shade.
-Vector seen_anyway(const SplatPerson& person, int chunk, int lane) {
-    return hn::Load(lanes, person.own_lights + (person.slot_shares ? 0 : chunk * chunk_points) + lane);
+// Of points that may shine: what they emit, by channel, and the share of their colour that is seen in any light and
+// shade.
+Vector own_light(const SplatPerson& person, int value, int chunk, int lane) {
+    const int row = (person.slot_shares ? 0 : chunk * own_light_values) + value;
+    return hn::Load(lanes, person.own_lights + row * chunk_points + lane);
 }
 
 // Linear light that each point sends, 32767 = 1.
@@ -129,8 +131,11 @@ void find_colors(const SplatPerson& person, const SplatLight& light, int chunk, 
     for (int channel = 0; channel < 3; ++channel) {
         Vector lit = hn::Add(hn::Add(all(light.level[channel]), times(normal[1], all(light.slope[channel]))),
                              times(sunlit, all(light.sun[channel])));
-        if (person.own_lights) lit = hn::Add(lit, times(hn::Sub(all(16384), lit), seen_anyway(person, chunk, lane)));
-        const Vector half = hn::Min(times(lit, albedo(person, channel, chunk, lane, index)), all(16383));
+        if (person.own_lights) lit = hn::Add(lit, times(hn::Sub(all(16384), lit), own_light(person, 3, chunk, lane)));
+        Vector half = times(lit, albedo(person, channel, chunk, lane, index));
+        if (person.own_lights)
+            half = hn::SaturatedAdd(half, hn::ShiftRight<1>(own_light(person, channel, chunk, lane)));
+        half = hn::Min(half, all(16383));
         color[channel] = hn::Add(half, half);
     }
 }

@@ -24,6 +24,12 @@ std::uint16_t table_index(model::Slot slot) {
     return static_cast<std::uint16_t>((2 * slot + 1) << 8 | 2 * slot);
 }
 
+// The values of a point lie a chunk's points apart.
+void pack_own_light(const glm::u8vec4& light, std::int16_t* to) {
+    for (int channel = 0; channel < 3; ++channel) to[channel * chunk_points] = linear_of_code[light[channel]];
+    to[3 * chunk_points] = q15(static_cast<float>(light.a) / 255.0f);
+}
+
 constexpr std::uint32_t first_rung = 1;  // two points
 constexpr float facet_unit = 64.0f;
 constexpr float share_unit = 16384.0f;
@@ -135,10 +141,12 @@ void SplatModel::pack_looks(const figures::Figure& figure) {
         slots_[i] = table_index(model.slots[point]);
     }
     if (!model.own_lights.empty()) {
-        own_lights_.resize(std::size_t{chunk_points} * chunks_);
-        mean_own_lights_.resize(std::size_t{chunk_points} * (longest_mean_prefix + 1));
+        constexpr std::size_t chunk_values = std::size_t{own_light_values} * chunk_points;
+        own_lights_.resize(chunk_values * chunks_);
+        mean_own_lights_.resize(chunk_values * (longest_mean_prefix + 1));
         for (int i = 0; i < chunks_ * chunk_points; ++i)
-            own_lights_[i] = q15(static_cast<float>(model.own_lights[std::min(i, points_ - 1)].a) / 255.0f);
+            pack_own_light(model.own_lights[std::min(i, points_ - 1)],
+                           &own_lights_[chunk_values * (i / chunk_points) + i % chunk_points]);
     }
     mean_colors_.resize(std::size_t{3} * chunk_points * (longest_mean_prefix + 1));
     mean_shares_.resize(std::size_t{1 + model::slot_count} * chunk_points * (longest_mean_prefix + 1));
@@ -150,7 +158,7 @@ void SplatModel::pack_looks(const figures::Figure& figure) {
             for (int channel = 0; channel < 3; ++channel)
                 colors[channel * chunk_points + point] = linear_of_code[look.color[channel]];
             if (own_lights())
-                mean_own_lights_[prefix * chunk_points + point] = q15(static_cast<float>(look.own_light.a) / 255.0f);
+                pack_own_light(look.own_light, &mean_own_lights_[prefix * own_light_values * chunk_points + point]);
             float untinted = 1.0f;
             for (int slot = 1; slot <= model::slot_count; ++slot) {
                 const float share = static_cast<float>(look.shares[slot - 1]) / 255.0f;
@@ -255,7 +263,12 @@ std::vector<SplatModel::LitPoint> SplatModel::light_points(std::uint32_t pose) c
         const std::int16_t* own = colors() + 3 * chunk_points * (i / chunk_points) + lane;
         const glm::vec3 color = glm::vec3(own[0], own[chunk_points], own[2 * chunk_points]) / 32767.0f;
         const glm::vec3 normal = three(chunk.normal, 127.0f);
-        const float seen_anyway = own_lights() ? own_lights()[i] / 32767.0f : 0.0f;
+        const auto own_light = [&](std::size_t value) {
+            if (!own_lights()) return 0.0f;
+            return own_lights()[(own_light_values * (i / chunk_points) + value) * chunk_points + lane] / 32767.0f;
+        };
+        const float seen_anyway = own_light(3);
+        lit[i].emitted = {own_light(0), own_light(1), own_light(2)};
         lit[i].slot = (slots_[i] & 0xff) / 2;
         lit[i].facet = three(chunk.facet, facet_unit);
         for (int side = 0; side < 2; ++side) {
@@ -283,6 +296,9 @@ void SplatModel::find_lights(std::uint32_t key, int node, glm::vec3 direction, s
         const int side = double_sided_ && glm::dot(lit[i].facet, direction) < 0.0f ? 1 : 0;
         const std::array<float, 3 * sun_azimuths>& light = lit[i].light[side];
         for (std::size_t value = 0; value < sum.size(); ++value) sum[value] += weight * light[value];
+        if (own_lights())
+            for (std::size_t value = 0; value < sum.size(); ++value)
+                sums[model::no_slot][value] += weight * lit[i].emitted[static_cast<int>(value % 3)];
         weights += weight;
     }
     if (!(weights > 0.0f)) return;

@@ -53,11 +53,11 @@ public:
         return &mean_shares_[prefix * (1 + model::slot_count) * chunk_points];
     }
 
-    // What is seen of the same colours in any light and shade: [chunk][chunk_points]; of a prefix, [chunk_points].
-    // Null: nothing of any.
+    // Seen in any light and shade, 32767 = 1: what points emit, by channel, linear, and the share of their colours:
+    // [chunk][own_light_values][chunk_points]; the means of a prefix as if it were a chunk. Null: nothing of any.
     const std::int16_t* own_lights() const { return own_lights_.size() == 0 ? nullptr : own_lights_.data(); }
     const std::int16_t* mean_own_lights(int prefix) const {
-        return own_lights_.size() == 0 ? nullptr : &mean_own_lights_[prefix * chunk_points];
+        return own_lights_.size() == 0 ? nullptr : &mean_own_lights_[prefix * own_light_values * chunk_points];
     }
 
     // The shares of the surface that points stand for when so many are drawn: `near` and, by the fraction, `far` ones,
@@ -94,6 +94,7 @@ public:
     struct LitPoint {
         int slot;
         glm::vec3 facet;
+        glm::vec3 emitted;  // besides, whatever the slot's colour
         std::array<std::array<float, 3 * sun_azimuths>, 2> light;
     };
     // Of the first ones of a pose.

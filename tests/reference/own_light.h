@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <memory>
 #include <string>
@@ -11,12 +12,19 @@
 
 namespace reference {
 
-enum class Shine { no, unlit };
+enum class Shine { no, unlit, glowing };
 
 inline model::Character make_shining_harlequin(Shine shine) {
     model::Character harlequin = make_harlequin(true);
-    harlequin.name = shine == Shine::no ? "dull harlequin" : "unlit harlequin";
-    for (model::Material& material : harlequin.mesh.materials) material.unlit = shine == Shine::unlit;
+    harlequin.name = shine == Shine::no ? "dull harlequin" : shine == Shine::unlit ? "unlit harlequin" : "glowworm";
+    std::vector<model::Material>& materials = harlequin.mesh.materials;
+    for (model::Material& material : materials) material.unlit = shine == Shine::unlit;
+    if (shine != Shine::glowing) return harlequin;
+    materials[0].emissive = {0.2f, 0.05f, 0.4f};
+    materials[1].emissive = {0.4f, 0.4f, 0.1f};
+    materials[1].emissive_texture = 0;
+    materials[2].emissive = {0.1f, 0.4f, 0.3f};
+    materials[2].emissive_texture = 1 - materials[2].texture;
     return harlequin;
 }
 
@@ -29,12 +37,15 @@ inline scene::Light before_black(const glm::vec3& from_above, const glm::vec3& f
     light.sun = sun;
     return light;
 }
-// That shows everything in its own colour; that doesn't; and none.
+// That shows everything in its own colour; that doesn't; that does even less; and none.
 inline scene::Light plain_light() {
     return before_black(glm::vec3(1), glm::vec3(1), glm::vec3(0));
 }
 inline scene::Light odd_light() {
     return before_black({0.2f, 0.3f, 0.7f}, {0.1f, 0, 0}, {1.3f, 0.4f, 0.1f});
+}
+inline scene::Light weak_light() {
+    return before_black({0.1f, 0.2f, 0.3f}, {0.2f, 0.1f, 0}, {0.2f, 0.1f, 0.1f});
 }
 inline scene::Light no_light() {
     return before_black(glm::vec3(0), glm::vec3(0), glm::vec3(0));
@@ -50,10 +61,11 @@ public:
           renderer_(scene::StaticMesh{}, scene::Ground{}, light, std::vector{model.product()}, width, height) {}
 
     // By so many points (0: triangles), from one of several sides.
-    render::Image shoot(std::size_t points, int side) {
+    render::Image shoot(std::size_t points, int side) { return shoot(points, side, points == 0 ? 3 : 12); }
+    render::Image shoot(std::size_t points, int side, double distance) {  // [m]
         Person person = sitter(model_, side % 2, 7 * side);
         person.points = points;
-        const scene::CameraPose pose = camera(person, 1.3 * side, 0.2, points == 0 ? 3 : 12);
+        const scene::CameraPose pose = camera(person, 1.3 * side, 0.2, distance);
         const render::View view = render::make_view(pose, width, height);
         const Model* const models[] = {&model_};
         renderer_.begin(view);
@@ -74,6 +86,21 @@ inline int worst_difference(const render::Image& a, const render::Image& b) {
     int worst = 0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i) worst = std::max(worst, std::abs(a.pixels[i] - b.pixels[i]));
     return worst;
+}
+
+// Of the light of two.
+inline render::Image sum_of(const render::Image& a, const render::Image& b) {
+    render::Image sum = a;
+    for (std::size_t i = 0; i < sum.pixels.size(); ++i)
+        sum.pixels[i] = static_cast<std::uint8_t>(std::lround(std::min(std::hypot(a.pixels[i], b.pixels[i]), 255.0)));
+    return sum;
+}
+
+inline glm::dvec3 light_of(const render::Image& image) {
+    glm::dvec3 sum(0);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+        sum[static_cast<int>(i % 3)] += std::pow(image.pixels[i] / 255.0, 2);
+    return sum;
 }
 
 inline int brightest(const render::Image& image) {

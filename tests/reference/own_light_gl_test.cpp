@@ -31,4 +31,22 @@ TEST_F(GlOwnLight, TheUnlitShowTheirColoursInAnyLight) {
         }
 }
 
+TEST_F(GlOwnLight, WhatIsEmittedIsAdded) {
+    constexpr int rounding = 2;  // [of 255] of three pictures
+    const reference::Model dull(reference::make_shining_harlequin(Shine::no), {0, 1}, point_count);
+    const reference::Model glowing(reference::make_shining_harlequin(Shine::glowing), {0, 1}, point_count);
+    Booth lit(dull, reference::weak_light(), figures::by_opengl());
+    Booth both(glowing, reference::weak_light(), figures::by_opengl());
+    Booth in_the_dark(glowing, reference::no_light(), figures::by_opengl());
+    for (const std::size_t points : counts)
+        for (const int side : {0, 1, 2}) {
+            const render::Image emitted = in_the_dark.shoot(points, side);
+            EXPECT_GT(reference::brightest(emitted), 100);
+            EXPECT_LE(reference::worst_difference(reference::sum_of(lit.shoot(points, side), emitted),
+                                                  both.shoot(points, side)),
+                      rounding)
+                << points << " points from side " << side;
+        }
+}
+
 }  // namespace

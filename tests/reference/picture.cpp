@@ -198,6 +198,15 @@ private:
         return Shade::between(glm::min(front, back), glm::max(front, back));
     }
 
+    // In sRGB's code, where it is a texture's factor.
+    static glm::dvec3 emission_of(const model::Material& material) {
+        if (material.unlit) return glm::dvec3(0);
+        const auto code = [](double light) {
+            return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
+        };
+        return {code(material.emissive.r), code(material.emissive.g), code(material.emissive.b)};
+    }
+
     // What is seen of a surface whose colour is in part the same in any light.
     static Shade partly(double unlit, const Shade& light) {
         const auto seen = [&](const glm::dvec3& by) { return glm::mix(by, glm::dvec3(1), unlit); };
@@ -224,18 +233,18 @@ private:
             const auto blend = [](const auto& x, const auto& y, const auto& z, const glm::dvec3& by) {
                 return by.x * x + by.y * y + by.z * z;
             };
-            const auto texel_at = [&](const Spot& spot) -> Texel {
-                if (material.texture == model::no_texture) return {glm::dvec4(1), glm::dvec4(1)};
+            const auto texel_at = [&](const Spot& spot, std::uint8_t texture) -> Texel {
+                if (texture == model::no_texture) return {glm::dvec4(1), glm::dvec4(1)};
                 const auto uv = [&](const glm::dvec3& by) {
                     return blend(glm::dvec2(mesh.uvs[a]), glm::dvec2(mesh.uvs[b]), glm::dvec2(mesh.uvs[c]), by);
                 };
                 const glm::dvec2 here = uv(spot.share);
-                return texels(mesh, material, here, uv(spot.right) - here, uv(spot.below) - here);
+                return texels(mesh, texture, material.sampler, here, uv(spot.right) - here, uv(spot.below) - here);
             };
             const auto exists = [&](const auto& spot_of) {
                 if (!(material.alpha_cutoff > 0)) return Existence::certain;
                 const Spot spot = spot_of();
-                const Texel texel = texel_at(spot);
+                const Texel texel = texel_at(spot, material.texture);
                 const double own =
                     blend(mesh.colors[a].a / 255.0, mesh.colors[b].a / 255.0, mesh.colors[c].a / 255.0, spot.share);
                 constexpr double uncertain = 0.02;  // texels are blended in steps of 1 / 256
@@ -244,12 +253,17 @@ private:
                 return own * texel.low.a < cutoff + uncertain ? Existence::uncertain : Existence::certain;
             };
             triangle({at[a], at[b], at[c]}, material.double_sided, exists, [&](const Spot& spot) {
-                const Texel texel = texel_at(spot);
+                const Texel texel = texel_at(spot, material.texture);
                 const glm::dvec3 low(texel.low), high(texel.high);
+                const glm::dvec3 emission = emission_of(material);
+                const Texel shown = emission == glm::dvec3(0) ? Texel{} : texel_at(spot, material.emissive_texture);
+                const glm::dvec3 least = emission * glm::dvec3(shown.low), most = emission * glm::dvec3(shown.high);
                 const glm::dvec3 own = blend(albedo[a], albedo[b], albedo[c], spot.share);
                 return Shade::between(
-                    stored(own * low * low * blend(light[a].low, light[b].low, light[c].low, spot.share)),
-                    stored(own * high * high * blend(light[a].high, light[b].high, light[c].high, spot.share)));
+                    stored(own * low * low * blend(light[a].low, light[b].low, light[c].low, spot.share) +
+                           least * least),
+                    stored(own * high * high * blend(light[a].high, light[b].high, light[c].high, spot.share) +
+                           most * most));
             });
         }
     }
@@ -315,9 +329,8 @@ private:
 
     // The mipmap is the one whose texels are nearest to pixels in size. Drivers measure that as they like, within a
     // factor of the square root of two.
-    Texel texels(const model::Mesh& mesh, const model::Material& material, const glm::dvec2& uv,
+    Texel texels(const model::Mesh& mesh, int id, const model::Sampler& sampler, const glm::dvec2& uv,
                  const glm::dvec2& per_x, const glm::dvec2& per_y) {
-        const int id = material.texture;
         std::vector<Level>& levels = mipmaps_[{&mesh, id}];
         if (levels.empty()) levels = levels_of(mesh, id);
         const int last = static_cast<int>(levels.size()) - 1;
@@ -331,7 +344,7 @@ private:
         for (int level = from; level <= to; ++level) {
             for (const glm::dvec2& shift : places) {
                 const glm::dvec4 texel = levels[static_cast<std::size_t>(level)].seen(
-                    material.sampler, uv + shift / off * (uv_steps * glm::max(glm::abs(uv), glm::dvec2(0.25))));
+                    sampler, uv + shift / off * (uv_steps * glm::max(glm::abs(uv), glm::dvec2(0.25))));
                 shown.low = glm::min(shown.low, texel);
                 shown.high = glm::max(shown.high, texel);
             }
@@ -365,8 +378,8 @@ private:
                 tint += looks[p].slots[slot] * tint_of(person, slot);
             const Shade light = partly(looks[p].unlit, light_seen(facing, at, both_sides));
             splat(person, at, both_sides || away < -edge_on,
-                  Shade::between(stored(looks[p].albedo * tint * light.low),
-                                 stored(looks[p].albedo * tint * light.high)));
+                  Shade::between(stored(looks[p].albedo * tint * light.low + looks[p].emitted),
+                                 stored(looks[p].albedo * tint * light.high + looks[p].emitted)));
         }
     }
 

@@ -104,10 +104,12 @@ INSTANTIATE_TEST_SUITE_P(Files, RealPortrait,
                          testing::Values("CesiumMan/CesiumMan.glb", "Fox/Fox.glb", "KayKitMage/Mage.glb",
                                          "QuaterniusKnight/KnightCharacter.glb", "RaylibRobot/robot.glb"));
 
-TEST_F(Portrait, OfTheUnlitIsTheReferences) {
-    const Model model(reference::make_shining_harlequin(reference::Shine::unlit), {0, 1}, 400);
-    expect_alike_all_around(model);
-    expect_alike_by_every_number_of_points(model);
+TEST_F(Portrait, OfWhoShinesIsTheReferences) {
+    for (const reference::Shine shine : {reference::Shine::unlit, reference::Shine::glowing}) {
+        const Model model(reference::make_shining_harlequin(shine), {0, 1}, 400);
+        expect_alike_all_around(model);
+        expect_alike_by_every_number_of_points(model);
+    }
 }
 
 // Neighbours in front of and behind one another, some as triangles, some as points, whose batches follow one another in

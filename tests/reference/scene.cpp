@@ -88,12 +88,17 @@ const std::vector<Figure::Look>& Figure::looks(std::size_t count) const {
         const std::uint32_t corner = mesh_->indices[3 * std::size_t{points_->surface[p].triangle} + 2];
         if (mesh_->materials[mesh_->material_ids[corner]].unlit) sums[owner].unlit += glm::dot(code, code);
         sums[owner].slots[points_->slots[p]] += 1;
+        if (!points_->own_lights.empty()) {
+            const glm::dvec3 own = glm::dvec3(points_->own_lights[p]) / 255.0;
+            sums[owner].emitted += own * own;
+        }
         ++members[owner];
     }
     for (std::size_t p = 0; p < count; ++p) {
         const double light = sums[p].albedo.r + sums[p].albedo.g + sums[p].albedo.b;
         if (light > 0) sums[p].unlit /= light;
         sums[p].albedo /= members[p];
+        sums[p].emitted /= members[p];
         for (double& share : sums[p].slots) share /= members[p];
     }
     return looks_[count] = sums;

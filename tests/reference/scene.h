@@ -53,6 +53,7 @@ public:
     struct Look {
         glm::dvec3 albedo;                    // linear
         double unlit;                         // [0, 1] the share of it that is seen in any light and shade
+        glm::dvec3 emitted;                   // linear, besides
         double slots[1 + model::slot_count];  // shares by slot, sum 1
     };
     const std::vector<Look>& looks(std::size_t count) const;
