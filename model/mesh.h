@@ -30,7 +30,8 @@ struct MorphTarget {
     std::vector<glm::vec3> normal_offsets;    // empty or as long as position_offsets
 };
 
-// Structure of arrays, one element a vertex unless it says otherwise. All arrays are always filled.
+// Structure of arrays, one element a vertex unless it says otherwise. All arrays but more_joints and more_weights are
+// always filled.
 struct Mesh {
     glm::dvec3 origin{0.0};                   // [file's units] that all positions are relative to
     std::vector<glm::vec3> positions;         // [file's units], in bind space
@@ -40,7 +41,9 @@ struct Mesh {
     std::vector<Slot> slots;                  // of the person's colours (slot.h)
     std::vector<std::uint16_t> material_ids;  // into materials
     std::vector<glm::u16vec4> joints;         // into Skeleton::palette; unused ones have weight 0
-    std::vector<glm::vec4> weights;           // >= 0, sum 1
+    std::vector<glm::vec4> weights;           // >= 0, sum 1, more_weights with them
+    std::vector<glm::u16vec4> more_joints;    // empty unless some vertex has more than four influences: the next four
+    std::vector<glm::vec4> more_weights;      // as long as more_joints; 0 for vertices with up to four
     std::vector<std::uint32_t> indices;       // three a triangle, counter-clockwise seen from outside
     std::vector<Material> materials;          // no two alike
     std::vector<Texture> textures;
@@ -50,6 +53,13 @@ struct Mesh {
     std::size_t triangle_count() const { return indices.size() / 3; }
 
     const Material& material_of(std::size_t vertex) const { return materials[material_ids[vertex]]; }
+    // Calls visit(palette entry, weight) for all influences of a vertex; some may weigh 0.
+    template <typename Visit>
+    void visit_influences(std::size_t vertex, Visit visit) const {
+        for (int i = 0; i < 4; ++i) visit(joints[vertex][i], weights[vertex][i]);
+        if (more_joints.empty()) return;
+        for (int i = 0; i < 4; ++i) visit(more_joints[vertex][i], more_weights[vertex][i]);
+    }
     // Whether any of it is seen from both sides. Drawers take a mesh for one-sided or two-sided as a whole: sides.h.
     bool double_sided() const { return std::ranges::any_of(materials, &Material::double_sided); }
 };

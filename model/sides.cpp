@@ -66,6 +66,10 @@ void add_vertices(Mesh& mesh, const Twins& twins) {
     repeat(mesh.material_ids, twins.originals);
     repeat(mesh.joints, twins.originals);
     repeat(mesh.weights, twins.originals);
+    if (!mesh.more_joints.empty()) {
+        repeat(mesh.more_joints, twins.originals);
+        repeat(mesh.more_weights, twins.originals);
+    }
     for (const std::uint32_t v : twins.originals) mesh.normals.push_back(-mesh.normals[v]);
     std::vector<MorphTarget> added;
     for (const MorphTarget& morph : mesh.morphs) {

@@ -155,10 +155,9 @@ glm::mat3 normal_matrix(const glm::mat3& m) {
 
 glm::mat4 blended_matrix(const model::Mesh& mesh, const Pose& pose, std::size_t vertex) {
     glm::mat4 blend(0.0f);
-    for (int i = 0; i < 4; ++i) {
-        const float weight = mesh.weights[vertex][i];
-        if (weight != 0.0f) blend += pose.palette[mesh.joints[vertex][i]] * weight;
-    }
+    mesh.visit_influences(vertex, [&](std::uint16_t joint, float weight) {
+        if (weight != 0.0f) blend += pose.palette[joint] * weight;
+    });
     return blend;
 }
 

@@ -84,20 +84,20 @@ struct Influences {
 
 // The corners' influences, the same joint once, and of those the four heaviest.
 Influences influences_of(const Mesh& mesh, const Corners& corners) {
-    std::array<std::pair<float, std::uint16_t>, 12> found{};
+    std::array<std::pair<float, std::uint16_t>, 24> found{};
     std::size_t count = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-        for (int k = 0; k < 4; ++k) {
-            const float weight = mesh.weights[corners.vertex[i]][k] * corners.share[i];
-            const std::uint16_t joint = mesh.joints[corners.vertex[i]][k];
-            if (!(weight > 0.0f)) continue;
+        mesh.visit_influences(corners.vertex[i], [&](std::uint16_t joint, float of_corner) {
+            const float weight = of_corner * corners.share[i];
+            if (!(weight > 0.0f)) return;
             std::size_t at = 0;
             while (at < count && found[at].second != joint) ++at;
             if (at == count) found[count++] = {0.0f, joint};
             found[at].first += weight;
-        }
+        });
     }
-    std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) {  // what was not found weighs 0 and is last
+    const auto end = found.begin() + static_cast<std::ptrdiff_t>(count);
+    std::sort(found.begin(), end, [](const auto& a, const auto& b) {
         return a.first > b.first || (a.first == b.first && a.second < b.second);
     });
     Influences out;

@@ -62,6 +62,10 @@ std::string model_key(const model::Mesh& mesh, std::span<const PosedMesh> poses,
     hasher.add(mesh.material_ids);
     hasher.add(mesh.joints);
     hasher.add(mesh.weights);
+    if (!mesh.more_joints.empty()) {
+        hasher.add(mesh.more_joints);
+        hasher.add(mesh.more_weights);
+    }
     hasher.add(static_cast<std::uint64_t>(mesh.materials.size()));
     for (const model::Material& material : mesh.materials) {
         hasher.add(material.texture);

@@ -177,8 +177,9 @@ private:
 std::vector<bool> used_entries(const model::Character& character) {
     std::vector<bool> used(character.skeleton.palette.size(), false);
     for (std::size_t i = 0; i < character.mesh.joints.size(); ++i)
-        for (int j = 0; j < 4; ++j)
-            if (character.mesh.weights[i][j] > 0) used[character.mesh.joints[i][j]] = true;
+        character.mesh.visit_influences(i, [&](std::uint16_t joint, float weight) {
+            if (weight > 0) used[joint] = true;
+        });
     return used;
 }
 

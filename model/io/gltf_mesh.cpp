@@ -293,11 +293,38 @@ void split_at_edges(GltfFile& file, const Accessor& positions, Indices& triangle
     }
 }
 
+using InfluenceSet = std::pair<Accessor, Accessor>;  // joints and weights, four a vertex
+constexpr std::size_t most_sets = 16;                // files have two or three
+
+// Of one vertex.
+struct Influences {
+    std::array<std::pair<float, std::uint16_t>, 4 * most_sets> all;  // weight and palette entry
+    std::size_t count = 0;
+
+    // A joint that is named again just weighs more.
+    void add(float weight, std::uint16_t joint) {
+        std::size_t at = 0;
+        while (at < count && all[at].second != joint) ++at;
+        if (at == count) all[count++] = {0.0f, joint};
+        all[at].first += weight;
+    }
+
+    float sum(std::size_t from, std::size_t to) const {
+        float sum = 0;
+        for (std::size_t i = from; i < to; ++i) sum += all[i].first;
+        return sum;
+    }
+};
+
 // Adds one primitive, hung on one attachment, to the mesh.
 class PrimitiveWriter {
 public:
-    PrimitiveWriter(GltfFile& file, const tinygltf::Primitive& primitive, Mesh& mesh)
-        : file_(file), primitive_(primitive), mesh_(mesh), first_(mesh.positions.size()) {}
+    PrimitiveWriter(GltfFile& file, const tinygltf::Primitive& primitive, Character& character)
+        : file_(file),
+          primitive_(primitive),
+          mesh_(character.mesh),
+          warnings_(character.warnings),
+          first_(character.mesh.positions.size()) {}
 
     void write(const Look& look, const Attachment& attachment) {
         const int position = attribute_of(primitive_.attributes, "POSITION");
@@ -379,24 +406,38 @@ private:
         mesh_.material_ids.resize(mesh_.positions.size(), number_of(material, mesh_.materials));
     }
 
-    void write_influences(const Attachment& attachment) {
-        std::vector<std::pair<Accessor, Accessor>> sets;
-        for (const char* set : {"0", "1"}) {
-            if (!attachment.skinned) break;
-            auto joints =
-                optional_accessor(file_, primitive_.attributes, std::string("JOINTS_") + set, 4, vertex_count_);
-            auto weights =
-                optional_accessor(file_, primitive_.attributes, std::string("WEIGHTS_") + set, 4, vertex_count_);
-            if (joints && weights) sets.emplace_back(std::move(*joints), std::move(*weights));
+    // JOINTS_0 and WEIGHTS_0 and so on; none of a rigid part.
+    std::vector<InfluenceSet> read_influence_sets(const Attachment& attachment) {
+        std::vector<InfluenceSet> sets;
+        while (attachment.skinned) {
+            const std::string set = std::to_string(sets.size());
+            auto joints = optional_accessor(file_, primitive_.attributes, "JOINTS_" + set, 4, vertex_count_);
+            auto weights = optional_accessor(file_, primitive_.attributes, "WEIGHTS_" + set, 4, vertex_count_);
+            if (!joints || !weights) break;
+            if (sets.size() == most_sets)
+                fail("more than " + std::to_string(4 * most_sets) + " influences of a vertex", "fewer");
+            file_.budget.spend(sets.empty() ? 0 : used_.size());
+            sets.emplace_back(std::move(*joints), std::move(*weights));
         }
-        for (const std::uint32_t vertex : used_) add_influences(attachment, sets, vertex);
+        return sets;
     }
 
-    // The four heaviest of up to eight; none at all hangs the vertex on the first joint.
-    void add_influences(const Attachment& attachment, const std::vector<std::pair<Accessor, Accessor>>& sets,
-                        std::size_t vertex) {
-        std::array<std::pair<float, std::uint16_t>, 8> found{};
-        std::size_t count = 0;
+    void write_influences(const Attachment& attachment) {
+        const std::vector<InfluenceSet> sets = read_influence_sets(attachment);
+        Influences found;
+        for (const std::uint32_t vertex : used_) {
+            find_influences(attachment, sets, vertex, found);
+            add_influences(found, vertex);
+        }
+        if (mesh_.more_joints.empty()) return;
+        mesh_.more_joints.resize(mesh_.positions.size(), glm::u16vec4(0));
+        mesh_.more_weights.resize(mesh_.positions.size(), glm::vec4(0.0f));
+    }
+
+    // All of a vertex, each joint once, the heaviest first; none at all hangs it on the first joint.
+    static void find_influences(const Attachment& attachment, const std::vector<InfluenceSet>& sets, std::size_t vertex,
+                                Influences& found) {
+        found.count = 0;
         for (const auto& [joints, weights] : sets) {
             for (int i = 0; i < 4; ++i) {
                 const float weight = weights.finite(vertex, i);
@@ -404,27 +445,40 @@ private:
                 if (!(weight > 0.0f)) continue;
                 if (joint >= attachment.joints.size())
                     fail("joint " + std::to_string(joint), "below " + std::to_string(attachment.joints.size()));
-                found[count++] = {weight, attachment.joints[joint]};
+                found.add(weight, attachment.joints[joint]);
             }
         }
-        if (count == 0) found[count++] = {1.0f, attachment.joints.front()};
-        std::stable_sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(count),
+        if (found.count == 0) found.add(1.0f, attachment.joints.front());
+        std::stable_sort(found.all.begin(), found.all.begin() + static_cast<std::ptrdiff_t>(found.count),
                          [](const auto& a, const auto& b) { return a.first > b.first; });
-        float sum = 0;
-        for (std::size_t i = 0; i < std::min<std::size_t>(count, 4); ++i) sum += found[i].first;
-        glm::u16vec4 joint(0);
-        glm::vec4 weight(0.0f);
-        for (std::size_t i = 0; i < std::min<std::size_t>(count, 4); ++i) {
-            joint[static_cast<int>(i)] = found[i].second;
-            weight[static_cast<int>(i)] = found[i].first / sum;
+    }
+
+    // The eight heaviest, which weigh 1 together.
+    void add_influences(const Influences& found, std::uint32_t vertex) {
+        const std::size_t kept = std::min<std::size_t>(found.count, 8);
+        const float sum = found.sum(0, kept);
+        if (found.sum(kept, found.count) > 1e-3f * found.sum(0, found.count))
+            warnings_.add("vertex with more than eight influences, the lightest left out", std::to_string(vertex));
+        std::array<glm::u16vec4, 2> joints{glm::u16vec4(0), glm::u16vec4(0)};
+        std::array<glm::vec4, 2> weights{glm::vec4(0.0f), glm::vec4(0.0f)};
+        for (std::size_t i = 0; i < kept; ++i) {
+            joints[i / 4][static_cast<int>(i % 4)] = found.all[i].second;
+            weights[i / 4][static_cast<int>(i % 4)] = found.all[i].first / sum;
         }
-        mesh_.joints.push_back(joint);
-        mesh_.weights.push_back(weight);
+        if (kept > 4) {
+            mesh_.more_joints.resize(mesh_.joints.size(), glm::u16vec4(0));
+            mesh_.more_weights.resize(mesh_.joints.size(), glm::vec4(0.0f));
+            mesh_.more_joints.push_back(joints[1]);
+            mesh_.more_weights.push_back(weights[1]);
+        }
+        mesh_.joints.push_back(joints[0]);
+        mesh_.weights.push_back(weights[0]);
     }
 
     GltfFile& file_;
     const tinygltf::Primitive& primitive_;
     Mesh& mesh_;
+    Warnings& warnings_;
     std::size_t first_, vertex_count_ = 0;
     Indices triangles_;  // into used_
     Indices used_;       // the file's vertices that triangles use
@@ -463,7 +517,8 @@ void unmirror(Character& character) {
         float handedness = 0;
         for (std::size_t corner = 0; corner < 3; ++corner) {
             const std::uint32_t vertex = mesh.indices[i + corner];
-            for (int k = 0; k < 4; ++k) handedness += mesh.weights[vertex][k] * determinants[mesh.joints[vertex][k]];
+            mesh.visit_influences(
+                vertex, [&](std::uint16_t joint, float weight) { handedness += weight * determinants[joint]; });
         }
         if (handedness < 0.0f) std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
     }
@@ -495,7 +550,7 @@ void build_mesh(GltfFile& file, const NodeOrder& nodes, Character& character) {
                 const tinygltf::Skin& skin = file.model.skins[static_cast<std::size_t>(node.skin)];
                 skins[node.skin] = attach_to_skin(file, skin, nodes, palette);
             }
-            PrimitiveWriter writer(file, primitive, character.mesh);
+            PrimitiveWriter writer(file, primitive, character);
             const Look look = look_of(file, primitive.material, textures, character.warnings);
             writer.write(look, skinned ? skins[node.skin] : Attachment{{palette.entry(own, glm::mat4(1.0f))}, false});
             writer.write_morphs(own, node.weights.empty() ? mesh.weights : node.weights);

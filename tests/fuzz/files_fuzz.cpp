@@ -34,7 +34,9 @@ void use(const std::filesystem::path& path) {
     const std::size_t count = mesh.vertex_count();
     require(!mesh.indices.empty() && mesh.normals.size() == count && mesh.uvs.size() == count &&
             mesh.colors.size() == count && mesh.slots.size() == count && mesh.material_ids.size() == count &&
-            mesh.joints.size() == count && mesh.weights.size() == count);
+            mesh.joints.size() == count && mesh.weights.size() == count &&
+            (mesh.more_joints.empty() || mesh.more_joints.size() == count) &&
+            mesh.more_weights.size() == mesh.more_joints.size());
     for (const std::uint32_t index : mesh.indices) require(index < count);
     for (const glm::vec3& p : mesh.positions) require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
 }

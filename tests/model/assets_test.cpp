@@ -100,12 +100,13 @@ void expect_sane(const model::Character& character) {
     for (std::size_t i = 0; i < count; ++i) {
         ASSERT_TRUE(std::isfinite(glm::length(mesh.positions[i])));
         ASSERT_NEAR(glm::length(mesh.normals[i]), 1.0f, 1e-5f);
-        const glm::vec4 weights = mesh.weights[i];
-        ASSERT_NEAR(weights.x + weights.y + weights.z + weights.w, 1.0f, 1e-5f);
-        for (int k = 0; k < 4; ++k) {
-            ASSERT_GE(weights[k], 0.0f);
-            ASSERT_LT(mesh.joints[i][k], character.skeleton.palette.size());
-        }
+        float sum = 0;
+        mesh.visit_influences(i, [&](std::uint16_t joint, float weight) {
+            sum += weight;
+            ASSERT_GE(weight, 0.0f);
+            ASSERT_LT(joint, character.skeleton.palette.size());
+        });
+        ASSERT_NEAR(sum, 1.0f, 1e-5f);
         ASSERT_LT(mesh.material_ids[i], mesh.materials.size());
     }
     for (const model::Material& material : mesh.materials) {

@@ -224,11 +224,10 @@ private:
     // Where its joints take a place beside the vertex.
     glm::dvec3 skinned(std::size_t vertex, const glm::dvec3& p) const {
         glm::dvec3 sum(0);
-        for (int i = 0; i < 4; ++i) {
-            const model::PaletteEntry& entry = character_.skeleton.palette[character_.mesh.joints[vertex][i]];
-            sum += place(entry.node, applied(entry.inverse_bind, p)) *
-                   static_cast<double>(character_.mesh.weights[vertex][i]);
-        }
+        character_.mesh.visit_influences(vertex, [&](std::uint16_t joint, float weight) {
+            const model::PaletteEntry& entry = character_.skeleton.palette[joint];
+            sum += place(entry.node, applied(entry.inverse_bind, p)) * static_cast<double>(weight);
+        });
         return sum;
     }
 

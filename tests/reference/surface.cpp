@@ -49,8 +49,9 @@ Surface surface_at(const model::Character& character, int clip, double seconds) 
         bones.push_back(world_matrix(posed, entry.node) * glm::dmat4(entry.inverse_bind));
     for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
         glm::dmat4 blend(0);
-        for (int i = 0; i < 4; ++i)
-            if (mesh.weights[v][i] > 0) blend += static_cast<double>(mesh.weights[v][i]) * bones[mesh.joints[v][i]];
+        mesh.visit_influences(v, [&](std::uint16_t joint, float weight) {
+            if (weight > 0) blend += static_cast<double>(weight) * bones[joint];
+        });
         surface.positions[v] = glm::dvec3(blend * glm::dvec4(surface.positions[v], 1));
         surface.normals[v] = glm::normalize(glm::inverseTranspose(glm::dmat3(blend)) * surface.normals[v]);
     }
