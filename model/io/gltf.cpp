@@ -15,6 +15,7 @@ Character load(const std::filesystem::path& path) {
     fill_cutouts(character.mesh);
     if (character.mesh.indices.empty()) fail("no triangles", "a mesh in the default scene");
     build_clips(file, nodes, character);
+    move_near(file, nodes, character);
     return character;
 }
 

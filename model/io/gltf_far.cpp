@@ -1,5 +1,5 @@
 #include <cmath>
-#include <utility>
+#include <vector>
 
 #include "model/io/gltf_file.h"
 #include "model/io/origin.h"
@@ -37,6 +37,9 @@ struct ExactPose {
         }
     }
 };
+
+constexpr double far_away = 128;  // [sizes of the shape] nearer ones, which most scenes are, lose 1e-5 of it at most
+constexpr double largest = 1e30;  // far below what a float holds
 
 struct Box {
     glm::dvec3 least{INFINITY}, most{-INFINITY};
@@ -152,9 +155,6 @@ private:
     double size_;  // of the shape
     Character& character_;
     std::vector<glm::dvec3> zeros_;
-
-public:
-    static constexpr double largest = 1e30;  // far below what a float holds
 };
 
 }  // namespace
@@ -163,8 +163,9 @@ void move_near(const GltfFile& file, const NodeOrder& nodes, Character& characte
     const ExactPose pose(file, nodes, character.skeleton);
     const Box box = box_of(character, pose);
     const glm::dvec3 origin = origin_for(box.least, box.most);
-    if (origin == glm::dvec3(0.0) || !(glm::length(origin) < Mover::largest)) return;
-    Mover(pose, origin, glm::distance(box.least, box.most), character).move();
+    const double size = glm::distance(box.least, box.most), away = glm::length(origin);
+    if (!(away > far_away * size && away < largest)) return;
+    Mover(pose, origin, size, character).move();
 }
 
 }  // namespace model

@@ -95,6 +95,11 @@ void build_mesh(GltfFile& file, const NodeOrder& nodes, Character& character);
 // Clips and channels that can't be played are left out, and said.
 void build_clips(GltfFile& file, const NodeOrder& nodes, Character& character);
 
+// Gives a character that rests more than 128 times its size from the file's zero an origin of its own (origin.h), and
+// takes it out of its nodes, keys and vertices; others are left as they are. A node that clips turn about a far place
+// stays as exact as floats are there, and so does a skin whose vertices are far in bind space.
+void move_near(const GltfFile& file, const NodeOrder& nodes, Character& character);
+
 // Textures as materials name them, each image decoded once. What can't be had is said.
 class TextureSet {
 public:
