@@ -73,16 +73,19 @@ render::Frame frame_of(std::span<const Person> people, std::span<const Model* co
     return frame;
 }
 
-std::unique_ptr<Model> model_of_file(const std::string& name, const figures::Way& way) {
+std::unique_ptr<Model> model_of_file(const std::string& name, const figures::Way& way, std::vector<int> clips) {
     const std::filesystem::path file = std::filesystem::path(GRANDSTAND_SHARED) / "assets" / name;
     if (!std::filesystem::exists(file)) return nullptr;
     model::Character character = model::load_mesh(file);
-    const scene::Casting casting = scene::cast(character);
-    scene::add_stills(character, casting);
+    if (clips.empty()) {
+        const scene::Casting casting = scene::cast(character);
+        scene::add_stills(character, casting);
+        clips = casting.clips;
+    }
     const std::size_t triangles = character.mesh.triangle_count();
     const bool natively = way.drawing == sfsm::Drawing::native;
     const std::size_t points = natively ? figures::points_worth(triangles, way) : triangles / 2;
-    return std::make_unique<Model>(std::move(character), casting.clips, points);
+    return std::make_unique<Model>(std::move(character), std::move(clips), points);
 }
 
 std::unique_ptr<render::Renderer> make_renderer(const figures::Way& way, const scene::StaticMesh& structure,

@@ -29,8 +29,8 @@ struct Model {
     figures::Figure product() const { return {&character.mesh, &poses, &points}; }
 };
 
-// From a file of ../shared/assets; null if it isn't there.
-std::unique_ptr<Model> model_of_file(const std::string& name, const figures::Way& way = figures::by_opengl());
+// From a file of ../shared/assets, in some of its clips, or in those that it is cast in; null if it isn't there.
+std::unique_ptr<Model> model_of_file(const std::string& name, const figures::Way& way, std::vector<int> clips = {});
 
 // The one that draws in this way, by daylight.
 std::unique_ptr<render::Renderer> make_renderer(const figures::Way& way, const scene::StaticMesh& structure,
