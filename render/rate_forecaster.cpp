@@ -253,11 +253,11 @@ std::span<const sfsm::RateStep> RateForecaster::finish() {
     std::size_t cell = 0;
     for (std::size_t step = 0; step < Exchange::steps; ++step) {
         const double rate = Exchange::rate_of(static_cast<int>(step));
-        const Sum before = price_all(step, cell);
-        const std::size_t best = step % Exchange::steps_an_octave == 0 ? best_cell(step, cell, before) : cell;
-        if (best != cell && step > 0) add_step(rounded(rate * just_below, 1e7), before, moves[step]);
-        add_step(rate, best == cell ? before : price_all(step, best), moves[step]);
-        cells_[step] = cell = best;
+        const InCells before{cell, price_all(step, cell)};
+        const InCells best = step % Exchange::steps_an_octave == 0 ? best_cells(step, before) : before;
+        if (best.cell != cell && step > 0) add_step(rounded(rate * just_below, 1e7), before.sum, moves[step]);
+        add_step(rate, best.sum, moves[step]);
+        cells_[step] = cell = best.cell;
     }
     return steps_;
 }
@@ -288,22 +288,23 @@ void RateForecaster::describe(const Sum& sum, const PaceForecaster::Price& moves
     out.loss = rounded((sum.error + moves.error) / canvas_px(), 1e6);
 }
 
-// The cells that cost least, but none finer than `cell`, which comes to `now`. Cells take time by how many there are.
-std::size_t RateForecaster::best_cell(std::size_t step, std::size_t cell, const Sum& now) const {
+// The cells that cost least, but none finer than now. Cells take time by how many there are.
+RateForecaster::InCells RateForecaster::best_cells(std::size_t step, const InCells& now) const {
     constexpr double worth_a_change = 0.97;  // pictures of other cells look different, and costs aren't known better
     const double rate = Exchange::rate_of(static_cast<int>(step));
-    const auto cost_of = [&](const Sum& sum, std::size_t at) {
-        const double side = exchange_.cells()[at];
-        const double resampled = at > 0 ? way_->effort.resampling * covered() * pixels_ / (side * side) : 0;
-        return sum.error + rate * (sum.pieces(way_->effort) + resampled);
+    const auto cost_of = [&](const InCells& all) {
+        const double side = exchange_.cells()[all.cell];
+        const double resampled = all.cell > 0 ? way_->effort.resampling * covered() * pixels_ / (side * side) : 0;
+        return all.sum.error + rate * (all.sum.pieces(way_->effort) + resampled);
     };
-    std::size_t best = cell;
-    double least = worth_a_change * cost_of(now, cell);
-    for (std::size_t at = cell + 1; at < exchange_.cells().size(); ++at) {
-        const double cost = cost_of(price_all(step, at), at);
+    InCells best = now;
+    double least = worth_a_change * cost_of(now);
+    for (std::size_t cell = now.cell + 1; cell < exchange_.cells().size(); ++cell) {
+        const InCells all{cell, price_all(step, cell)};
+        const double cost = cost_of(all);
         if (!(cost < least)) continue;
         least = cost;
-        best = at;
+        best = all;
     }
     return best;
 }

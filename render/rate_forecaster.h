@@ -111,6 +111,11 @@ private:
                    effort.splat * splats;
         }
     };
+    // Everybody in cells of a size.
+    struct InCells {
+        std::size_t cell;
+        Sum sum;
+    };
     // What prices a row at a step.
     struct Setting {
         std::size_t step, cell;
@@ -136,7 +141,7 @@ private:
     void sort_rows();
     SizedRow sum_up(const Row& row, SizeSums* below) const;
     void add_step(double rate, const Sum& sum, const PaceForecaster::Price& moves);
-    std::size_t best_cell(std::size_t step, std::size_t cell, const Sum& now) const;
+    InCells best_cells(std::size_t step, const InCells& now) const;
     Sum price_all(std::size_t step, std::size_t cell) const;
     void price_parts(const SizeParts& parts, const Setting& setting, Sum& sum) const;
     void price_bins(const Row& row, const Setting& setting, Sum& sum) const;
