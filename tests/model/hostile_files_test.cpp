@@ -5,7 +5,6 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
-#include <zlib.h>
 
 #include <cmath>
 #include <cstdio>
@@ -24,6 +23,7 @@
 #include "pointsample/points_file.h"
 #include "tests/model/draco_packer.h"
 #include "tests/model/gltf_packer.h"
+#include "tests/model/gzip.h"
 #include "tests/model/mesh_text.h"
 #include "tests/pointsample/models.h"
 
@@ -412,27 +412,13 @@ TEST_F(HostileFiles, Stl) {
     EXPECT_EQ(progress_->loaded, 0u);
 }
 
-std::string gzip(const std::string& text) {
-    z_stream stream{};
-    deflateInit2(&stream, 9, Z_DEFLATED, MAX_WBITS + 16, 8, Z_DEFAULT_STRATEGY);
-    std::string packed(deflateBound(&stream, text.size()) + 64, '\0');
-    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
-    stream.avail_in = static_cast<uInt>(text.size());
-    stream.next_out = reinterpret_cast<Bytef*>(packed.data());
-    stream.avail_out = static_cast<uInt>(packed.size());
-    deflate(&stream, Z_FINISH);
-    packed.resize(stream.total_out);
-    deflateEnd(&stream);
-    return packed;
-}
-
 TEST_F(HostileFiles, Packed) {
-    const std::string packed = gzip(whole_obj());
+    const std::string packed = tests::gzip(whole_obj());
     Random random(24);
     attempt("damaged.obj.gz", 2000, [&](std::size_t) { return damaged_bytes(packed, random); });
     EXPECT_GE(progress_->refused, 1000u);  // a checksum
     attempt("damaged.obj.gz", packed.size(), [&](std::size_t i) { return packed.substr(0, i); });
-    attempt("inside.ply.gz", 500, [&](std::size_t) { return gzip(damaged_text(full_ply(), random)); });
+    attempt("inside.ply.gz", 500, [&](std::size_t) { return tests::gzip(damaged_text(full_ply(), random)); });
     expect_both(50);
 }
 
@@ -454,7 +440,7 @@ TEST_F(HostileFiles, Bombs) {
          "property float z\nelement face 1\nproperty list int int vertex_indices\nend_header\n" +
              std::string(80'000'000, '\0')}};
     for (const auto& [name, bytes] : bombs) {
-        const std::string packed = gzip(bytes);
+        const std::string packed = tests::gzip(bytes);
         attempt(name, 1, [&](std::size_t) { return packed; });
     }
 }

@@ -1,6 +1,5 @@
 // STL and OFF, and all text formats packed by gzip.
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include <cstring>
 #include <string>
@@ -8,23 +7,10 @@
 
 #include "model/io/mesh_file.h"
 #include "tests/model/folder.h"
+#include "tests/model/gzip.h"
 #include "tests/model/mesh_text.h"
 
 namespace {
-
-std::string gzip(const std::string& text) {
-    z_stream stream{};
-    deflateInit2(&stream, 9, Z_DEFLATED, MAX_WBITS + 16, 8, Z_DEFAULT_STRATEGY);
-    std::string packed(deflateBound(&stream, text.size()) + 64, '\0');
-    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
-    stream.avail_in = static_cast<uInt>(text.size());
-    stream.next_out = reinterpret_cast<Bytef*>(packed.data());
-    stream.avail_out = static_cast<uInt>(packed.size());
-    deflate(&stream, Z_FINISH);
-    packed.resize(stream.total_out);
-    deflateEnd(&stream);
-    return packed;
-}
 
 const std::string facet =
     "  facet normal 0 0 1\n    outer loop\n      vertex 0 0 0\n      vertex 1 0 0\n      vertex 0 1 0\n    endloop\n  "
@@ -135,23 +121,23 @@ TEST_F(StlOff, OffIsReadInItsKinds) {
 TEST_F(StlOff, PackedFilesAreReadAsWhatIsInThem) {
     const std::string obj = tests::obj_of(tests::make_cube());
     for (const char* name : {"a.obj.gz", "a.OBJ.GZ", "a.obj"})
-        EXPECT_DOUBLE_EQ(tests::area_of(load(name, gzip(obj))), 24) << name;
-    EXPECT_EQ(model::load_mesh(folder_.write("a b.obj.gz", gzip(obj))).name, "a b");
+        EXPECT_DOUBLE_EQ(tests::area_of(load(name, tests::gzip(obj))), 24) << name;
+    EXPECT_EQ(model::load_mesh(folder_.write("a b.obj.gz", tests::gzip(obj))).name, "a b");
     for (const char* format : tests::ply_formats)
-        EXPECT_DOUBLE_EQ(tests::area_of(load("a.ply.gz", gzip(tests::ply_of(tests::make_cube(), format)))), 24)
+        EXPECT_DOUBLE_EQ(tests::area_of(load("a.ply.gz", tests::gzip(tests::ply_of(tests::make_cube(), format)))), 24)
             << format;
-    EXPECT_DOUBLE_EQ(tests::area_of(load("a.stl.gz", gzip(binary_stl("", {0, 0})))), 1);
-    EXPECT_DOUBLE_EQ(tests::area_of(load("a.obj.gz", gzip(obj.substr(0, 100)) + gzip(obj.substr(100)))),
+    EXPECT_DOUBLE_EQ(tests::area_of(load("a.stl.gz", tests::gzip(binary_stl("", {0, 0})))), 1);
+    EXPECT_DOUBLE_EQ(tests::area_of(load("a.obj.gz", tests::gzip(obj.substr(0, 100)) + tests::gzip(obj.substr(100)))),
                      24);  // members
-    EXPECT_DOUBLE_EQ(tests::area_of(load("a.obj.gz", gzip(std::string(3'000'000, '\n') + obj))), 24);
+    EXPECT_DOUBLE_EQ(tests::area_of(load("a.obj.gz", tests::gzip(std::string(3'000'000, '\n') + obj))), 24);
     EXPECT_DOUBLE_EQ(tests::area_of(load("a.obj.gz", obj)), 24);  // not packed after all
-    const std::string packed = gzip(obj);
+    const std::string packed = tests::gzip(obj);
     EXPECT_NE(refusal("a.obj.gz", packed.substr(0, packed.size() - 9)).find("found a gzip file that ends too early"),
               std::string::npos);
     std::string damaged = packed;
     damaged[packed.size() / 2] = static_cast<char>(damaged[packed.size() / 2] ^ 0x55);
     EXPECT_NE(refusal("a.obj.gz", damaged), "");
-    EXPECT_NE(refusal("a.obj.gz", gzip(std::string(100'000'000, '\n') + obj))
+    EXPECT_NE(refusal("a.obj.gz", tests::gzip(std::string(100'000'000, '\n') + obj))
                   .find("found more than a hundred bytes a byte in a gzip file"),
               std::string::npos);
 }
