@@ -1,10 +1,13 @@
 // A character of several colours, textures and slots that can be made to shine by itself, and pictures of it.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "tests/reference/harlequin.h"
@@ -105,6 +108,26 @@ inline glm::dvec3 light_of(const render::Image& image) {
 
 inline int brightest(const render::Image& image) {
     return *std::ranges::max_element(image.pixels);
+}
+
+// Who is unlit shows in any light, and in none, what the dull show in plain light; they show something else in others.
+//   counts  of points; 0: triangles
+//   sides   from which they are seen, from the first on
+//   off     [of 255] at most, in any channel
+template <typename Renderer>
+void expect_own_colors(const Model& dull, const Model& unlit, const figures::Way& way,
+                       std::span<const std::size_t> counts, int sides, int off) {
+    Booth<Renderer> plain(dull, plain_light(), way), lit(dull, odd_light(), way);
+    Booth<Renderer> shining(unlit, odd_light(), way), in_the_dark(unlit, no_light(), way);
+    for (const std::size_t points : counts)
+        for (int side = 0; side < sides; ++side) {
+            const render::Image expected = plain.shoot(points, side);
+            EXPECT_GT(brightest(expected), 100);
+            EXPECT_GT(worst_difference(expected, lit.shoot(points, side)), 20);
+            for (Booth<Renderer>* booth : {&shining, &in_the_dark})
+                EXPECT_LE(worst_difference(expected, booth->shoot(points, side)), off)
+                    << points << " points from side " << side;
+        }
 }
 
 }  // namespace reference

@@ -16,19 +16,7 @@ TEST_F(GlOwnLight, TheUnlitShowTheirColoursInAnyLight) {
     constexpr int rounding = 1;  // [of 255]
     const reference::Model dull(reference::make_shining_harlequin(Shine::no), {0, 1}, point_count);
     const reference::Model unlit(reference::make_shining_harlequin(Shine::unlit), {0, 1}, point_count);
-    Booth plain(dull, reference::plain_light(), figures::by_opengl());
-    Booth lit(dull, reference::odd_light(), figures::by_opengl());
-    Booth shining(unlit, reference::odd_light(), figures::by_opengl());
-    Booth in_the_dark(unlit, reference::no_light(), figures::by_opengl());
-    for (const std::size_t points : counts)
-        for (const int side : {0, 1, 2}) {
-            const render::Image expected = plain.shoot(points, side);
-            EXPECT_GT(reference::brightest(expected), 100);
-            EXPECT_GT(reference::worst_difference(expected, lit.shoot(points, side)), 20);
-            for (Booth* booth : {&shining, &in_the_dark})
-                EXPECT_LE(reference::worst_difference(expected, booth->shoot(points, side)), rounding)
-                    << points << " points from side " << side;
-        }
+    reference::expect_own_colors<render::gl::Renderer>(dull, unlit, figures::by_opengl(), counts, 3, rounding);
 }
 
 TEST_F(GlOwnLight, WhatIsEmittedIsAdded) {

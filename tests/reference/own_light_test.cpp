@@ -32,19 +32,7 @@ const reference::Model& glowing() {
 
 TEST(NativeOwnLight, TheUnlitShowTheirColoursInAnyLight) {
     constexpr int rounding = 2;  // [of 255] of sums in 16 bits, where it is dark
-    Booth plain(dull(), reference::plain_light(), figures::natively());
-    Booth lit(dull(), reference::odd_light(), figures::natively());
-    Booth shining(unlit(), reference::odd_light(), figures::natively());
-    Booth in_the_dark(unlit(), reference::no_light(), figures::natively());
-    for (const std::size_t points : counts)
-        for (const int side : {0, 1, 2, 3}) {
-            const render::Image expected = plain.shoot(points, side);
-            EXPECT_GT(reference::brightest(expected), 100);
-            EXPECT_GT(reference::worst_difference(expected, lit.shoot(points, side)), 20);
-            for (Booth* booth : {&shining, &in_the_dark})
-                EXPECT_LE(reference::worst_difference(expected, booth->shoot(points, side)), rounding)
-                    << points << " points from side " << side;
-        }
+    reference::expect_own_colors<render::native::Renderer>(dull(), unlit(), figures::natively(), counts, 4, rounding);
 }
 
 // What very far people and the few points of far ones show.
