@@ -102,7 +102,8 @@ vec4 view_right;                 // world; length = tan of half the horizontal f
 vec4 view_up;                    // world; length = tan of half the vertical one
 vec4 view_forward;               // world; unit
 vec4 ground_parameters[2];       // as the file of shaders/grounds/ says that is in use
-vec4 splat;                      // x: splat size [px]; y: pixels that a metre covers at a depth of one metre
+vec4 splat;                      // x: splat size [px]; y: pixels that a metre covers at a depth of one metre; zw: the
+                                 // picture's share of the viewport that points are drawn into, across and up
 BLOCK_END(Frame)
 
 // Once a character.

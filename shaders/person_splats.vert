@@ -24,6 +24,7 @@ vec2 unturned(vec3 v) { return vec2(turn.y * v.x - turn.x * v.z, turn.y * v.z + 
 void main() {
     vec3 position = center.xyz - eye;
     gl_Position = Frame.clip_from_camera_relative * vec4(position, 1.0);
+    gl_Position.xy *= Frame.splat.zw;
     vec3 to_eye = -position;
     float up = to_eye.y / (abs(to_eye.y) + length(to_eye.xz));
     vec2 at = vec2(diamond(unturned(to_eye)) * 0.25 * far_nodes, (up + 1.0) * 0.5 * (far_rings - 1.0));

@@ -22,6 +22,9 @@ public:
     // The indirect command that draws a batch, as words of 32 bits; all of a drawer's are equally long.
     virtual void append_command(const Batch& batch, std::vector<std::uint32_t>& words) const = 0;
 
+    // Then its shaders scale to the picture's share of the viewport.
+    virtual bool draws_points() const = 0;
+
     // `count` commands of one character, from `offset` [bytes] of the bound indirect buffer on. Its FigureBlock is
     // bound; culling is on, and is left on.
     virtual void draw(std::uint32_t character, std::uintptr_t offset, GLsizei count) const = 0;

@@ -64,6 +64,8 @@ public:
         words.insert(words.end(), {batch.count, batch.instance_count, first, batch.first_instance});
     }
 
+    bool draws_points() const override { return true; }
+
     void draw(std::uint32_t character, std::uintptr_t offset, GLsizei count) const override {
         const Objects& objects = objects_[character];
         glUseProgram((objects.has_own_lights ? own_light_program_ : program_).name());

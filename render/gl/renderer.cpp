@@ -1,6 +1,7 @@
 #include "render/gl/renderer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
@@ -42,6 +43,10 @@ Buffer make_figure_block(const figures::Figure& figure) {
     return buffer;
 }
 
+// Drivers may drop a point whose middle is outside the viewport, though half of it is in the picture. So points are drawn
+// into a viewport that is larger by half of the largest on every side [px].
+constexpr int point_margin = static_cast<int>(sfsm::max_splat_size) / 2;
+
 // Whether it pays to find out beforehand who is hidden, and a picture can't show it.
 bool is_worth_an_occluder() {
     constexpr GLint enough_subpixel_bits = 8;
@@ -81,6 +86,9 @@ Surroundings Renderer::begin(const View& view) {
 void Renderer::resize(int width, int height) {
     GLint largest = 0;
     glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
+    std::array<GLint, 2> viewport{};
+    glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
+    largest = std::min({largest, viewport[0] - 2 * point_margin, viewport[1] - 2 * point_margin});
     if (width > largest || height > largest)
         throw std::runtime_error("OpenGL: found a picture of " + std::to_string(width) + "x" + std::to_string(height) +
                                  " pixels, expected sides of at most " + std::to_string(largest));
@@ -104,7 +112,6 @@ void Renderer::draw(const Frame& frame) {
     upload_people(frame);
 
     glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
-    glViewport(0, 0, width_, height_);
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GREATER);
@@ -116,13 +123,17 @@ void Renderer::draw(const Frame& frame) {
     glClearNamedFramebufferfv(target_.name(), GL_DEPTH, 0, &farthest);
 
     draw_people();
+    set_viewport(point_margin);
     far_.draw(frame);
+    set_viewport(0);
     contact_.fill(frame);
     backdrop_.draw(here, contact_);
 }
 
 void Renderer::upload_frame(const View& view, double splat_size) {
-    const FrameBlock frame = make_frame_block(view, ground_, light_, std::max(1.0f, static_cast<float>(splat_size)));
+    FrameBlock frame = make_frame_block(view, ground_, light_, std::max(1.0f, static_cast<float>(splat_size)));
+    frame.splat.z = static_cast<float>(width_) / static_cast<float>(width_ + 2 * point_margin);
+    frame.splat.w = static_cast<float>(height_) / static_cast<float>(height_ + 2 * point_margin);
     glNamedBufferSubData(frame_block_.name(), 0, sizeof frame, &frame);
     glBindBufferBase(GL_UNIFORM_BUFFER, Frame_binding, frame_block_.name());
 }
@@ -150,8 +161,14 @@ void Renderer::draw_people() const {
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.name());
     for (const CommandRun& run : runs_) {
         glBindBufferBase(GL_UNIFORM_BUFFER, Figure_binding, figure_blocks_[run.character].name());
-        drawers_[run.representation]->draw(run.character, run.offset, run.count);
+        const FigureDrawer& drawer = *drawers_[run.representation];
+        set_viewport(drawer.draws_points() ? point_margin : 0);
+        drawer.draw(run.character, run.offset, run.count);
     }
+}
+
+void Renderer::set_viewport(int margin) const {
+    glViewport(-margin, -margin, width_ + 2 * margin, height_ + 2 * margin);
 }
 
 void Renderer::present(int window_width, int window_height) const {

@@ -54,6 +54,7 @@ private:
     void upload_frame(const View& view, double splat_size);
     void upload_people(const Frame& frame);
     void draw_people() const;
+    void set_viewport(int margin) const;  // [px] around the picture
 
     glm::dvec3 origin_;  // the structure's
     Backdrop backdrop_;

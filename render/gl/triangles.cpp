@@ -139,6 +139,8 @@ public:
                                    batch.pose * objects_[batch.character].vertex_count, batch.first_instance});
     }
 
+    bool draws_points() const override { return false; }
+
     void draw(std::uint32_t character, std::uintptr_t offset, GLsizei count) const override {
         const Objects& objects = objects_[character];
         if (objects.double_sided) glDisable(GL_CULL_FACE);

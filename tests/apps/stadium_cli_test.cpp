@@ -51,7 +51,7 @@ TEST(StadiumProgram, SummaryHasTheFieldsOfTheContract) {
 TEST(StadiumProgram, LeavesAReportOfTheRun) {
     const tests::Directory directory;
     const std::string report = directory / "run.html";
-    const tests::Outcome outcome = tests::run("stadium", small + "--frames 3 --report " + report);
+    const tests::Outcome outcome = tests::run("stadium", small + "--draw native --frames 3 --report " + report);
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_TRUE(tests::read_file(report).starts_with("<!DOCTYPE html>"));
     EXPECT_NE(tests::read_file(report).find("the processor"), std::string::npos) << "says what it ran on";

@@ -384,15 +384,11 @@ private:
     }
 
     // A square around the point's place in the picture, S pixels wide but no wider than a square as large as the
-    // person, of whom a quarter of the surface is seen. A point outside the picture has none of its square in it.
+    // person, of whom a quarter of the surface is seen.
     void splat(const Person& person, const glm::dvec3& at, bool certain, const Shade& shade) {
         const glm::dvec3 h = homogeneous(at);
         if (h.z < Camera::near) return;
         const glm::dvec2 middle = glm::dvec2(h) / h.z;
-        const glm::dvec2 size(camera_.width, camera_.height);
-        if (glm::any(glm::lessThan(middle, glm::dvec2(-off))) || glm::any(glm::greaterThan(middle, size + off))) return;
-        if (glm::any(glm::lessThan(middle, glm::dvec2(off))) || glm::any(glm::greaterThan(middle, size - off)))
-            certain = false;
         const double whole = std::sqrt(person.figure->area() / 4) * person.scale * camera_.pixels_per_metre(h.z);
         const double side = std::clamp(whole, 1.0, std::max(1.0, scene_.splat_size));
         // Software rasterisers round squares to whole pixels.
