@@ -24,13 +24,15 @@ class Batches {
 public:
     void gather(const Frame& frame);
 
-    std::span<const Instance> instances() const { return instances_; }
     std::span<const Batch> all() const { return batches_; }  // by rising Person::batch
 
+    // Of the frame that was gathered, batch by batch; `out` is as long as its people. It is only written, in order.
+    void write_instances(const Frame& frame, std::span<Instance> out) const;
+
 private:
-    std::vector<std::uint32_t> begin_;     // per batch number, then the total
-    std::vector<std::uint32_t> somebody_;  // per batch number: one of its people
-    std::vector<Instance> instances_;
+    std::vector<std::uint32_t> numbers_;  // per person: their batch's
+    std::vector<std::uint32_t> begin_;    // per batch number, then the total
+    std::vector<std::uint32_t> order_;    // people, batch by batch
     std::vector<Batch> batches_;
 };
 

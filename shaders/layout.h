@@ -115,6 +115,7 @@ BLOCK_END(Figure)
 // What shaders/contact_grid.glsl reads.
 CONSTANT contact_cells_binding = 0;
 CONSTANT contact_feet_binding = 1;
+CONSTANT contact_numbers_binding = 2;
 BLOCK_BEGIN(ContactGrid, 2)
 vec4 corner_and_scale;  // x, z camera-relative [m]; cells a metre
 vec4 size;              // columns, rows

@@ -22,7 +22,13 @@ public:
     bool touches(const View& view, const motion::Bounds& box) const;
 
 private:
+    struct Cells {
+        int x0, x1, y0, y1;  // to the last
+    };
+
     void choose_cells();
+    void sort_into_cells();
+    Cells cells_of(glm::vec2 low, glm::vec2 high) const;  // [m] camera-relative x, z
     template <typename Visit>
     void for_each_cell(const ContactShade& shade, Visit visit) const;
 
@@ -30,9 +36,8 @@ private:
     glm::vec2 corner_{0};  // [m] camera-relative x, z
     float cells_a_metre_ = 1;
     int columns_ = 0, rows_ = 0;
-    std::vector<std::uint32_t> first_;
-    std::vector<glm::vec4> feet_;  // two a shade: contact_grid.glsl's Feet
-    Buffer block_, cells_, sorted_;
+    std::vector<std::uint32_t> first_, numbers_;  // as contact_grid.glsl has them
+    Buffer block_, cells_, feet_, sorted_;
 };
 
 }  // namespace render::gl

@@ -43,8 +43,8 @@ Buffer make_figure_block(const figures::Figure& figure) {
     return buffer;
 }
 
-// Drivers may drop a point whose middle is outside the viewport, though half of it is in the picture. So points are drawn
-// into a viewport that is larger by half of the largest on every side [px].
+// [px] OpenGL drops a point whose middle is outside the viewport, though half of it may be in the picture, and some
+// drivers draw it none the less. So points have a viewport that is larger by half of the largest on every side.
 constexpr int point_margin = static_cast<int>(sfsm::max_splat_size) / 2;
 
 // Whether it pays to find out beforehand who is hidden, and a picture can't show it.
@@ -153,8 +153,18 @@ void Renderer::upload_people(const Frame& frame) {
     // A fresh store each frame: the device may still be reading the last one.
     glNamedBufferData(commands_.name(), static_cast<GLsizeiptr>(command_words_.size() * sizeof(std::uint32_t)),
                       command_words_.data(), GL_STREAM_DRAW);
-    glNamedBufferData(instances_.name(), static_cast<GLsizeiptr>(batches_.instances().size() * sizeof(Instance)),
-                      batches_.instances().data(), GL_STREAM_DRAW);
+    upload_instances(frame);
+}
+
+void Renderer::upload_instances(const Frame& frame) {
+    const std::size_t people = frame.people.size();
+    if (people == 0) return;
+    const auto bytes = static_cast<GLsizeiptr>(people * sizeof(Instance));
+    glNamedBufferData(instances_.name(), bytes, nullptr, GL_STREAM_DRAW);
+    void* store = glMapNamedBufferRange(instances_.name(), 0, bytes, GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT);
+    if (!store) throw std::runtime_error("OpenGL: the driver has no memory for " + std::to_string(people) + " people");
+    batches_.write_instances(frame, {static_cast<Instance*>(store), people});
+    glUnmapNamedBuffer(instances_.name());
 }
 
 void Renderer::draw_people() const {

@@ -53,6 +53,7 @@ private:
 
     void upload_frame(const View& view, double splat_size);
     void upload_people(const Frame& frame);
+    void upload_instances(const Frame& frame);
     void draw_people() const;
     void set_viewport(int margin) const;  // [px] around the picture
 

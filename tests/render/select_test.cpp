@@ -147,17 +147,18 @@ TEST(Batches, PartThePeopleByHowTheyAreDrawn) {
     for (const double splat_size : {0.0, 1.0, 4.0}) {
         const Frame frame = select_once(view_of("still"), splat_size > 0 ? points_of(splat_size) : Decision{});
         batches.gather(frame);
+        std::vector<render::Instance> instances(frame.people.size());
+        batches.write_instances(frame, instances);
         std::vector<const render::Person*> people;  // as they should be gathered
         for (const render::Person& person : frame.people) people.push_back(&person);
         std::ranges::stable_sort(people, {}, &render::Person::batch);
-        ASSERT_EQ(batches.instances().size(), people.size());
         std::uint32_t next = 0;
         for (const render::Batch& batch : batches.all()) {
             ASSERT_EQ(batch.first_instance, next);
             ASSERT_GT(batch.instance_count, 0u);
             for (; next < batch.first_instance + batch.instance_count; ++next) {
                 const render::Person& person = *people[next];
-                EXPECT_EQ(std::memcmp(&batches.instances()[next], &person.instance, sizeof person.instance), 0);
+                EXPECT_EQ(std::memcmp(&instances[next], &person.instance, sizeof person.instance), 0);
                 EXPECT_EQ(std::tie(batch.character, batch.representation, batch.first, batch.count, batch.pose),
                           std::tie(person.character, person.representation, person.first, person.count, person.pose));
             }
