@@ -34,7 +34,7 @@ Selector::Selector(const scene::Crowd& crowd, std::span<const scene::CastMember>
       figures_(figures.begin(), figures.end()),
       options_(options),
       acts_(crowd),
-      depth_(std::make_unique_for_overwrite<float[]>(crowd.size())),
+      sights_(std::make_unique_for_overwrite<Sight[]>(crowd.size())),
       far_keys_(crowd.size()) {
     for (const figures::Figure& figure : figures_) {
         Kind& kind = kinds_.emplace_back(Kind{.choices = figures::Choices(figure, *options_.way)});
@@ -125,15 +125,16 @@ template <typename Visit>
 void Selector::for_each_visible(const Seen& seen, Visit visit) const {
     const scene::CrowdBlock& block = crowd_.blocks[seen.block];
     for (std::size_t person = block.first; person < block.first + block.count; ++person) {
-        const float depth = seen.whole() ? depth_of(seen, person) : depth_[person];
-        if (depth > 0) visit(person, depth);
+        if (seen.whole())
+            visit(person, sight_of(person, middle_of(seen, person)));
+        else if (sights_[person].depth > 0)
+            visit(person, sights_[person]);
     }
 }
 
 template <typename Work>
 void Selector::for_each_seen(Work work) {
-    tbb::parallel_for(
-        std::size_t{0}, seen_.size(), [&](std::size_t i) { work(seen_[i]); }, tbb::static_partitioner());
+    tbb::parallel_for(std::size_t{0}, seen_.size(), [&](std::size_t i) { work(seen_[i]); });
 }
 
 const Survey& Selector::survey(const View& view, std::int64_t tick, const Surroundings& around) {
@@ -199,16 +200,16 @@ void Selector::find_visible(Seen& seen) {
         const Kind& kind = kinds_[crowd_.character[person]];
         const float scale = scale_of(person), radius = scale * kind.radius;
         const glm::vec3 middle = middle_of(seen, person);
-        float& depth = depth_[person];
+        Sight& sight = sights_[person];
         if ((!seen.inside && !sphere_visible(view_, middle, radius)) || !scene::has_arrived(crowd_, person, tick_))
-            depth = unseen;
+            sight.depth = unseen;
         else if (around_.occlusion && around_.occlusion->hides_ball(view_, middle, radius + scale * kind.overhang))
-            depth = behind;
+            sight.depth = behind;
         else
-            depth = std::max(view_.depth(middle), near_plane);
-        seen.range = std::max(seen.range, depth);
-        seen.visible += depth > 0;
-        seen.hidden += depth == behind;
+            sight = sight_of(person, middle);
+        seen.range = std::max(seen.range, sight.depth);
+        seen.visible += sight.depth > 0;
+        seen.hidden += sight.depth == behind;
     }
 }
 
@@ -229,7 +230,8 @@ void Selector::find_range() {
         if (!seen.whole()) continue;
         const scene::CrowdBlock& block = crowd_.blocks[seen.block];
         if (depth_range(view_.from(block.origin), block.box).farthest < reached) continue;
-        for_each_visible(seen, [&](std::size_t, float depth) { survey_.range = std::max(survey_.range, depth); });
+        for_each_visible(
+            seen, [&](std::size_t, const Sight& sight) { survey_.range = std::max(survey_.range, sight.depth); });
     }
 }
 
@@ -243,16 +245,15 @@ void Selector::forecast() {
             continue;
         }
         RateForecaster::Group one{.people = 1, .share = seen.share, .place = seen.place};
-        for_each_visible(seen, [&](std::size_t person, float depth) {
-            const float demand = demand_at_unit_splat(person, depth);
+        for_each_visible(seen, [&](std::size_t person, const Sight& sight) {
             one.kind = crowd_.character[person];
             one.role = crowd_.role[person];
-            one.depth = depth;
-            one.pixels_per_metre = view_.pixels_per_metre(depth);
-            one.surface = surface_of(person, depth);
-            one.on_screen = on_screen(seen, person, one.surface);
-            one.is_near = std::isinf(demand);
-            forecaster_.add(one.kind, one.role, depth, demand, one.pixels_per_metre);
+            one.depth = sight.depth;
+            one.pixels_per_metre = view_.pixels_per_metre(sight.depth);
+            one.surface = sight.surface;
+            one.on_screen = sight.on_screen;
+            one.is_near = std::isinf(sight.demand);
+            forecaster_.add(one.kind, one.role, sight.depth, sight.demand, one.pixels_per_metre);
             rates_.add(one);
         });
     }
@@ -273,12 +274,11 @@ void Selector::find_shares() {
 
 // Of somebody large who is partly beside the picture; who is smaller counts as in it. Nobody shows on more than all of
 // it.
-float Selector::on_screen(const Seen& seen, std::size_t person, float surface) const {
+float Selector::on_screen(std::size_t person, const glm::vec3& middle, float depth, float surface) const {
     constexpr float large = 4000;  // [px^2]
     const auto width = static_cast<float>(view_.width), height = static_cast<float>(view_.height);
     if (!(surface > std::min(large, width * height))) return 1;
-    const glm::vec3 middle = middle_of(seen, person);
-    const float depth = std::max(view_.depth(middle), near_plane), pixels = view_.pixels_per_metre(depth);
+    const float pixels = view_.pixels_per_metre(depth);
     const float high = crowd_.height[person] * pixels, wide = 0.4f * high;
     const auto overlap = [](float at, float side, float picture) {
         const float low = std::max(at - 0.5f * side, -0.5f * picture), end = std::min(at + 0.5f * side, 0.5f * picture);
@@ -360,8 +360,8 @@ void Selector::choose(Seen& seen, const DrawingRule& rule, std::int64_t last_tic
     seen.errors = {};
     seen.slowed = seen.simplified = false;
     Person* drawn = frame_.people.data() + seen.first_drawn;
-    for_each_visible(seen,
-                     [&](std::size_t person, float depth) { *drawn++ = choose(person, depth, rule, last_tick, seen); });
+    for_each_visible(
+        seen, [&](std::size_t person, const Sight& sight) { *drawn++ = choose(person, sight, rule, last_tick, seen); });
 }
 
 // All of them move in the same frames, and their keys, which are a good part of a second apart, are found every few
@@ -421,18 +421,17 @@ double Selector::cell() const {
     return options_.way->has_cells ? std::max(1.0, figures::cell_share * frame_.splat_size) : 1;
 }
 
-void Selector::add_errors(std::size_t number, const Person& person, const Subject& subject, int period,
+void Selector::add_errors(const Sight& sight, const Person& person, const Subject& subject, int period,
                           Seen& seen) const {
     const figures::Way& way = *options_.way;
     const ErrorBounds& bounds = bounds_[person.character];
     const float scale = person.instance.scale, radius = scale * kinds_[person.character].radius;
-    const float surface = surface_of(number, person.depth);
     double error = 0;
     if (way.representations[person.representation].is_mesh) {
         const float height = scale * figures_[person.character].poses->rest_height * subject.pixels_per_metre;
         error = way.error.of_mesh(static_cast<double>(height));
     } else {
-        error = points_errors_.at(std::sqrt(surface / static_cast<float>(person.count)));
+        error = points_errors_.at(std::sqrt(sight.surface / static_cast<float>(person.count)));
         seen.errors.splat_px = std::max(
             seen.errors.splat_px, limit_.pixels(scale * bounds.covering.radius(person.count), radius, person.depth));
     }
@@ -443,8 +442,7 @@ void Selector::add_errors(std::size_t number, const Person& person, const Subjec
         seen.errors.motion_px = std::max(
             seen.errors.motion_px, limit_.pixels(scale * bounds.motion.single[role][index], radius, person.depth));
     }
-    seen.errors.expected +=
-        error * static_cast<double>(0.25f * surface * seen.share * on_screen(seen, number, surface));
+    seen.errors.expected += error * static_cast<double>(0.25f * sight.surface * seen.share * sight.on_screen);
 }
 
 void Selector::add_errors(const Group& group, const Subject& subject, int period, double people, Seen& seen) const {
@@ -478,20 +476,22 @@ Selector::Spot Selector::spot_of(const Seen& seen, std::size_t person, std::int6
     return {relative(placement.position, seen.eye), turn_of(placement.yaw)};
 }
 
-float Selector::depth_of(const Seen& seen, std::size_t person) const {
-    return std::max(view_.depth(middle_of(seen, person)), near_plane);
+Selector::Sight Selector::sight_of(std::size_t person, const glm::vec3& middle) const {
+    const std::size_t character = crowd_.character[person];
+    const float scale = scale_of(person), area = figures_[character].poses->area;
+    Sight sight;
+    sight.depth = std::max(view_.depth(middle), near_plane);
+    const float pixels = scale * view_.pixels_per_metre(sight.depth);
+    sight.surface = area * pixels * pixels;
+    sight.demand = sight.depth < options_.way->nearest * scale * kinds_[character].radius
+                       ? std::numeric_limits<float>::infinity()
+                       : options_.density * area * pixels * pixels;
+    sight.on_screen = on_screen(person, middle, sight.depth, sight.surface);
+    return sight;
 }
 
 float Selector::depth_of(const Seen& seen, const Group& group) const {
     return std::max(view_.depth(relative(group.middle, seen.eye)), near_plane);
-}
-
-float Selector::demand_at_unit_splat(std::size_t person, float depth) const {
-    const std::size_t character = crowd_.character[person];
-    const float scale = scale_of(person);
-    if (depth < options_.way->nearest * scale * kinds_[character].radius) return std::numeric_limits<float>::infinity();
-    const float pixels = scale * view_.pixels_per_metre(depth);
-    return options_.density * figures_[character].poses->area * pixels * pixels;
 }
 
 float Selector::mean_demand_of(const Seen& seen, const Group& group) const {
@@ -500,23 +500,13 @@ float Selector::mean_demand_of(const Seen& seen, const Group& group) const {
            pixels;
 }
 
-float Selector::surface_of(std::size_t person, float depth) const {
-    const float pixels = scale_of(person) * view_.pixels_per_metre(depth);
-    return figures_[crowd_.character[person]].poses->area * pixels * pixels;
-}
-
-Subject Selector::subject_of(std::size_t person, float depth, const Seen& seen) const {
-    const float demand = demand_at_unit_splat(person, depth);
-    Subject subject{crowd_.character[person],
-                    crowd_.role[person],
-                    depth,
-                    view_.pixels_per_metre(depth),
-                    demand / options_.density,
-                    demand,
-                    seen.place};
+Subject Selector::subject_of(std::size_t person, const Sight& sight, const Seen& seen) const {
+    Subject subject{
+        crowd_.character[person],        crowd_.role[person], sight.depth, view_.pixels_per_metre(sight.depth),
+        sight.demand / options_.density, sight.demand,        seen.place};
     if (!limit_.is_set()) return subject;
     const float scale = scale_of(person);
-    subject.allowed = limit_.off(scale * kinds_[subject.character].radius, depth) / scale;
+    subject.allowed = limit_.off(scale * kinds_[subject.character].radius, sight.depth) / scale;
     return subject;
 }
 
@@ -545,11 +535,12 @@ std::uint32_t Selector::pose_of(std::size_t person, std::int64_t tick) {
 }
 
 // Where the person is now decides whether they are seen and how often they move; both change little in a period.
-Person Selector::choose(std::size_t person, float depth, const DrawingRule& rule, std::int64_t last_tick, Seen& seen) {
+Person Selector::choose(std::size_t person, const Sight& sight, const DrawingRule& rule, std::int64_t last_tick,
+                        Seen& seen) {
     const std::size_t character = crowd_.character[person];
     const scene::CastMember& member = cast_[character];
     const motion::PoseTable& poses = *figures_[character].poses;
-    const Subject subject = subject_of(person, depth, seen);
+    const Subject subject = subject_of(person, sight, seen);
     const int period = rule.period_of(subject);
     const std::int64_t due = motion::due_tick(tick_, period, crowd_.hash[person]);
     const auto [choice, samples] = rule.shape_of(subject);
@@ -570,9 +561,9 @@ Person Selector::choose(std::size_t person, float depth, const DrawingRule& rule
                        part.last_share,
                        pose,
                        kinds_[character].first_batch + choice * static_cast<std::uint32_t>(poses.pose_count) + pose,
-                       depth,
+                       sight.depth,
                        stands ? contact_reach * crowd_.height[person] : 0.0f};
-    add_errors(person, drawn, subject, period, seen);
+    add_errors(sight, drawn, subject, period, seen);
     return drawn;
 }
 

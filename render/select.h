@@ -130,6 +130,13 @@ private:
         glm::vec3 position;  // [m] camera-relative, of the model's origin
         Turn turn;
     };
+    // Of one person in the view that is surveyed.
+    struct Sight {
+        float depth;      // [m] of the middle, at least the near plane; unseen: not in view; behind: hidden
+        float surface;    // [px^2]
+        float demand;     // points asked for at S = 1 px; infinite: too near to be drawn by points
+        float on_screen;  // share of them in the picture
+    };
     static constexpr float unseen = -1.0f, behind = -2.0f;
 
     void know_blocks();
@@ -145,8 +152,8 @@ private:
     float depth_of(const Seen& seen, const Group& group) const;        // [m] of its middle, at least the near plane
     float mean_demand_of(const Seen& seen, const Group& group) const;  // at S = 1 px
     void find_shares();
-    float on_screen(const Seen& seen, std::size_t person, float surface) const;
-    Subject subject_of(std::size_t person, float depth, const Seen& seen) const;
+    float on_screen(std::size_t person, const glm::vec3& middle, float depth, float surface) const;
+    Subject subject_of(std::size_t person, const Sight& sight, const Seen& seen) const;
     Subject subject_of(const Group& group, const Seen& seen) const;
     float nearest_of(const Seen& seen) const;  // [m] view depth that nobody of a block is nearer than
     float largest_of(const Seen& seen, const Group& group) const;  // [m / model unit] nobody of a block has more
@@ -155,20 +162,18 @@ private:
     void make_room();
     void choose(Seen& seen, const DrawingRule& rule, std::int64_t last_tick);
     void choose_as_one(Seen& seen, const DrawingRule& rule, std::int64_t last_tick);
-    Person choose(std::size_t person, float depth, const DrawingRule& rule, std::int64_t last_tick, Seen& seen);
-    void add_errors(std::size_t number, const Person& person, const Subject& subject, int period, Seen& seen) const;
+    Person choose(std::size_t person, const Sight& sight, const DrawingRule& rule, std::int64_t last_tick, Seen& seen);
+    void add_errors(const Sight& sight, const Person& person, const Subject& subject, int period, Seen& seen) const;
     void add_errors(const Group& group, const Subject& subject, int period, double people, Seen& seen) const;
     double cell() const;
     float scale_of(std::size_t person) const;  // [m / model unit]
-    float demand_at_unit_splat(std::size_t person, float depth) const;
-    float surface_of(std::size_t person, float depth) const;  // [px^2]
     static Turn turn_of(float yaw);
     Spot spot_of(const Seen& seen, std::size_t person, std::int64_t tick) const;
     glm::vec3 middle_of(const Seen& seen, std::size_t person) const;  // [m] camera-relative, of their ball
-    float depth_of(const Seen& seen, std::size_t person) const;       // [m] of that, at least the near plane
+    Sight sight_of(std::size_t person, const glm::vec3& middle) const;
     void sum_up();
     template <typename Visit>
-    void for_each_visible(const Seen& seen, Visit visit) const;  // gets person and view depth
+    void for_each_visible(const Seen& seen, Visit visit) const;  // gets person and Sight
     template <typename Work>
     void for_each_seen(Work work);
 
@@ -188,9 +193,8 @@ private:
     ErrorLimit limit_;
     scene::RememberedActs acts_;
     std::vector<Seen> seen_;  // in the crowd's order
-    // [m] per person of those not whole; unseen: not in view; behind: hidden. Where nobody was ever asked, its memory
-    // isn't touched.
-    std::unique_ptr<float[]> depth_;
+    // Per person of blocks that are not whole. Where nobody was ever asked, its memory isn't touched.
+    std::unique_ptr<Sight[]> sights_;
     Forecaster forecaster_;
     RateForecaster rates_;
     RateRule rate_rule_{rates_};
