@@ -102,6 +102,89 @@ TEST(Crowding, MoreShowsFromNearby) {
     EXPECT_NEAR(before, share_of(stand(12, 20, 0.5f, 0.4f), 1.3f, {0, -0.3f, -1}), 0.02f);
 }
 
+// Rows of which none stands right behind another, so that a picture from nearby differs by the perspective alone.
+std::vector<glm::vec3> offset_rows(int rows, int seats, float apart, float rise, float deep) {
+    constexpr float golden = 0.618034f;
+    std::vector<glm::vec3> middles;
+    for (int row = 0; row < rows; ++row)
+        for (int seat = 0; seat < seats; ++seat)
+            middles.emplace_back(apart * (static_cast<float>(seat) + std::fmod(golden * static_cast<float>(row), 1.0f)),
+                                 rise * static_cast<float>(row), -deep * static_cast<float>(row));
+    return middles;
+}
+
+glm::vec3 mean_of(const std::vector<glm::vec3>& middles) {
+    glm::dvec3 sum(0);
+    for (const glm::vec3& middle : middles) sum += middle;
+    return glm::vec3(sum / static_cast<double>(middles.size()));
+}
+
+// As drawn_share, seen in perspective from an eye that looks at their mean.
+double share_drawn_from(glm::vec3 eye, const std::vector<glm::vec3>& middles, float height) {
+    constexpr int side = 2048;
+    const glm::vec3 ahead = glm::normalize(mean_of(middles) - eye);
+    const glm::vec3 right = glm::normalize(glm::cross(ahead, glm::vec3(0, 1, 0))), up = glm::cross(right, ahead);
+    const auto on_screen = [&](const glm::vec3& at) {
+        return glm::vec2(glm::dot(right, at - eye), glm::dot(up, at - eye)) / glm::dot(ahead, at - eye);
+    };
+    float widest = 0;
+    for (const glm::vec3& middle : middles) {
+        const glm::vec2 at = glm::abs(on_screen(middle)) + height / glm::dot(ahead, middle - eye);
+        widest = std::max({widest, at.x, at.y});
+    }
+    const float pixels = 0.5f * side / widest;
+    std::vector<bool> full(std::size_t{side} * side);
+    double shown = 0, all = 0;
+    for (const glm::vec3& middle : middles) {
+        const glm::vec2 at = pixels * on_screen(middle) + 0.5f * side;
+        const glm::vec2 half = 0.5f * pixels * height / glm::dot(ahead, middle - eye) * glm::vec2(breadth, 1);
+        const glm::ivec2 low(at - half), high(at + half);
+        all += static_cast<double>(high.x - low.x) * (high.y - low.y);
+        for (int y = low.y; y < high.y; ++y)
+            for (int x = low.x; x < high.x; ++x) {
+                std::vector<bool>::reference here =
+                    full[static_cast<std::size_t>(y) * side + static_cast<std::size_t>(x)];
+                shown += here ? 0 : 1;
+                here = true;
+            }
+    }
+    return shown / all;
+}
+
+// From as near as a block is deep, and farther: how much more shows than from far away.
+TEST(Crowding, FromNearbyAsMuchMoreShowsAsARasterSays) {
+    constexpr double tolerance = 0.06;
+    constexpr float height = 1.3f, deep = 0.8f, rows = 30;  // [m], [m], 1
+    for (const float rise : {0.0f, 0.1f, 0.2f}) {
+        const std::vector<glm::vec3> people = offset_rows(static_cast<int>(rows), 20, 0.5f, rise, deep);
+        const glm::vec3 mean = mean_of(people);
+        Crowding crowding;
+        for (const glm::vec3& middle : people) crowding.add(middle, height);
+        for (const float down : {0.3f, 0.6f}) {
+            const glm::vec3 ahead = glm::normalize(glm::vec3(0, -down, -1));
+            const auto drawn = [&](float distance) {
+                return share_drawn_from(mean - distance * ahead, people, height);
+            };
+            const auto said = [&](float distance) {
+                return static_cast<double>(crowding.visible_share(distance * ahead, silhouette(height)));
+            };
+            constexpr float far = 3000;  // [m]
+            const double drawn_far = drawn(far), said_far = said(far);
+            for (const float depths : {1.0f, 1.5f, 2.0f}) {
+                const float distance = depths * rows * deep;
+                const double more = drawn(distance) / drawn_far;
+                EXPECT_NEAR(said(distance) / said_far, more, tolerance * more)
+                    << "rise " << rise << ", down " << down << ", " << distance << " m";
+            }
+        }
+    }
+}
+
+// However thin the row, a body has a depth.
+TEST(Crowding, ARowShowsFromAbove) {
+    EXPECT_GT(share_of(stand(1, 20, 0.5f, 0), 1.3f, {0, -1, 0}), 0.05f);
+}
+
 TEST(Crowding, ScaleAndOriginDontMatter) {
     constexpr float tolerance = 1e-3f;  // floats of places a kilometre away
     const glm::vec3 direction(0.3f, -0.4f, -1);
