@@ -527,6 +527,12 @@ TEST(PredictiveForecast, ThereIsNoProbeWhileTheTargetIsMissed) {
     EXPECT_LE(changes(rows, 60, rows.size()), 2);
 }
 
+Work work_of(const Plan& plan) {
+    Work work;
+    for (std::size_t i = 0; i < work_kinds; ++i) work.counts[i] = std::llround(plan.counts[i]);
+    return work;
+}
+
 // A million people half a pixel tall, as OpenGL's forecast had them: finer than S = 1 each step has half as many points
 // again, and all of them together save a tenth of a pixel.
 TEST(PredictiveForecast, OutOfReachNoPointsAreDrawnThatAreNotWorthTheirTime) {
@@ -555,12 +561,63 @@ TEST(PredictiveForecast, OutOfReachNoPointsAreDrawnThatAreNotWorthTheirTime) {
                 const bool is_dear = plan[WorkKind::point] > 2 * fewest_points || ms > 1.5 * least_ms;
                 ASSERT_FALSE(is_dear && frame < 12) << "frame " << frame << " of a guess";
                 dear += is_dear ? 1 : 0;
-                Work work;
-                for (std::size_t i = 0; i < work_kinds; ++i) work.counts[i] = std::llround(plan.counts[i]);
-                law.observe({frame, ms * std::exp(0.02 * normal(random)), decision, work});
+                law.observe({frame, ms * std::exp(0.02 * normal(random)), decision, work_of(plan)});
             }
             EXPECT_LE(dear, PredictiveOptions{}.probes) << name_of(drawing) << ", a point " << point_ms << " ms";
         }
+}
+
+// Half as many points again look a fifth better, and what they cost is never known: times of frames that are drawn to
+// learn it don't come.
+TEST(PredictiveForecast, OutOfReachFinerDetailIsTriedAFewTimesEvenIfNothingIsLearned) {
+    constexpr std::int64_t people = 1'000'000;
+    const std::vector<Step> motion = {motion_step(std::numeric_limits<double>::infinity(), people / 32, 0)};
+    const std::vector<Step> shapes = {shape_step(0, 1'000 * people, 0, 0), shape_step(0.5, 0, 3 * people, 0.22),
+                                      shape_step(1, 0, 2 * people, 0.28)};
+    const Forecast forecast{Work{people}, motion, shapes};
+    for (const double point_ms : {1.2e-4, 3e-5}) {
+        const Prices prices{1, {2e-5, 8e-5, point_ms, 1e-6}};
+        PredictiveLaw law;
+        std::mt19937_64 random(1);
+        int tried = 0;
+        for (std::int64_t frame = 0; frame < 600; ++frame) {
+            const Decision decision = law.decide({target_ms, test_range, &forecast});
+            const Plan plan = plan_at(forecast, test_range, decision.motion_distance, decision.splat_size);
+            if (decision.splat_size < 1)
+                ++tried;
+            else
+                law.observe({frame, plan_ms(plan, prices) * std::exp(0.02 * normal(random)), decision, work_of(plan)});
+        }
+        EXPECT_EQ(tried, PredictiveOptions{}.probes) << point_ms << " ms";
+    }
+}
+
+// The target is cut to where what is drawn takes just as long as detail may take, but the coarsest looks nearly as
+// good.
+TEST(PredictiveForecast, OutOfReachDetailIsLetGoThatIsNotWorthItsTime) {
+    const std::vector<Step> motion = {motion_step(std::numeric_limits<double>::infinity(), 1000, 0)};
+    const std::vector<Step> shapes = {shape_step(0, 100'000'000, 0, 0), shape_step(1, 0, 1'500'000, 0.001),
+                                      shape_step(2, 0, 1'200'000, 0.002), shape_step(4, 0, 1'000'000, 0.003)};
+    const Forecast forecast{Work{1000}, motion, shapes};
+    const Prices prices{1, {0, 8e-5, 1e-5, 1e-6}};
+    const double least_ms = plan_ms(cheapest_plan(forecast, test_range), prices);
+    constexpr double before_ms = 13;
+    constexpr std::int64_t cut = 100;
+    for (double after_ms = 2; after_ms < 4; after_ms += 0.1) {
+        PredictiveLaw law;
+        std::mt19937_64 random(1);
+        double ms = 0;
+        for (std::int64_t frame = 0; frame <= cut; ++frame) {
+            const Decision decision = law.decide({frame < cut ? before_ms : after_ms, test_range, &forecast});
+            const Plan plan = plan_at(forecast, test_range, decision.motion_distance, decision.splat_size);
+            if (frame == cut) {
+                ASSERT_NEAR(ms, before_ms, 0.05 * before_ms);
+            }
+            ms = plan_ms(plan, prices);
+            law.observe({frame, ms * std::exp(0.001 * normal(random)), decision, work_of(plan)});
+        }
+        EXPECT_LE(ms, 1.02 * least_ms) << after_ms << " ms";
+    }
 }
 
 // What every frame has is the trouble, not people: their detail costs next to nothing, and stays.
