@@ -55,6 +55,7 @@ Selector::Selector(const scene::Crowd& crowd, std::span<const scene::CastMember>
     std::vector<RateForecaster::Kind> exchanged;
     for (std::size_t i = 0; i < kinds_.size(); ++i) {
         kinds_[i].staleness = staleness[i];
+        know_reach(i);
         priced.push_back({kinds_[i].choices, staleness[i], spreads[i]});
         const motion::PoseTable& poses = *figures_[i].poses;
         exchanged.push_back(
@@ -65,6 +66,16 @@ Selector::Selector(const scene::Crowd& crowd, std::span<const scene::CastMember>
     }
     forecaster_ = Forecaster(std::move(priced), *options_.way, options_.density);
     rates_ = RateForecaster(std::move(exchanged), *options_.way);
+}
+
+// In every pose people are within their ball, but who goes somewhere takes it along.
+void Selector::know_reach(std::size_t kind) {
+    for (std::size_t role = 0; role < scene::role_count; ++role) {
+        const float way = scene::follows_path(static_cast<scene::Role>(role))
+                              ? bounds_[kind].motion.single[role][motion::max_period]
+                              : 0.0f;
+        kinds_[kind].reach[role] = kinds_[kind].radius + way;
+    }
 }
 
 void Selector::know_blocks() {
@@ -190,7 +201,7 @@ bool Selector::is_small(const View& view, std::size_t block) const {
     if (!known.stays || tick_ < crowd_.filled_tick || crowd_.size() < fewest_far_people) return false;
     const DepthRange depths = depth_range(view, crowd_.blocks[block].box);
     return depths.farthest - depths.nearest <= small_spread * depths.nearest &&
-           depths.nearest >= options_.way->nearest * known.reach &&
+           depths.nearest >= exact_within(known.reach, known.reach) &&
            known.tallest * view.pixels_per_metre(depths.nearest) <= small_height_px;
 }
 
@@ -421,11 +432,11 @@ double Selector::cell() const {
     return options_.way->has_cells ? std::max(1.0, figures::cell_share * frame_.splat_size) : 1;
 }
 
-void Selector::add_errors(const Sight& sight, const Person& person, const Subject& subject, int period,
-                          Seen& seen) const {
+void Selector::add_errors(std::size_t number, const Sight& sight, const Person& person, const Subject& subject,
+                          int period, Seen& seen) const {
     const figures::Way& way = *options_.way;
     const ErrorBounds& bounds = bounds_[person.character];
-    const float scale = person.instance.scale, radius = scale * kinds_[person.character].radius;
+    const float scale = person.instance.scale, reach = reach_of(number);
     double error = 0;
     if (way.representations[person.representation].is_mesh) {
         const float height = scale * figures_[person.character].poses->rest_height * subject.pixels_per_metre;
@@ -433,14 +444,14 @@ void Selector::add_errors(const Sight& sight, const Person& person, const Subjec
     } else {
         error = points_errors_.at(std::sqrt(sight.surface / static_cast<float>(person.count)));
         seen.errors.splat_px = std::max(
-            seen.errors.splat_px, limit_.pixels(scale * bounds.covering.radius(person.count), radius, person.depth));
+            seen.errors.splat_px, limit_.pixels(scale * bounds.covering.radius(person.count), reach, person.depth));
     }
     if (period > 1) {
         const auto role = static_cast<std::size_t>(subject.role), index = static_cast<std::size_t>(period);
         error += way.error.of_motion(
             static_cast<double>(kinds_[person.character].staleness[role][index] * subject.pixels_per_metre));
-        seen.errors.motion_px = std::max(
-            seen.errors.motion_px, limit_.pixels(scale * bounds.motion.single[role][index], radius, person.depth));
+        seen.errors.motion_px = std::max(seen.errors.motion_px,
+                                         limit_.pixels(scale * bounds.motion.single[role][index], reach, person.depth));
     }
     seen.errors.expected += error * static_cast<double>(0.25f * sight.surface * seen.share * sight.on_screen);
 }
@@ -483,7 +494,7 @@ Selector::Sight Selector::sight_of(std::size_t person, const glm::vec3& middle) 
     sight.depth = std::max(view_.depth(middle), near_plane);
     const float pixels = scale * view_.pixels_per_metre(sight.depth);
     sight.surface = area * pixels * pixels;
-    sight.demand = sight.depth < options_.way->nearest * scale * kinds_[character].radius
+    sight.demand = sight.depth < exact_within(scale * kinds_[character].radius, reach_of(person))
                        ? std::numeric_limits<float>::infinity()
                        : options_.density * area * pixels * pixels;
     sight.on_screen = on_screen(person, middle, sight.depth, sight.surface);
@@ -492,6 +503,15 @@ Selector::Sight Selector::sight_of(std::size_t person, const glm::vec3& middle) 
 
 float Selector::depth_of(const Seen& seen, const Group& group) const {
     return std::max(view_.depth(relative(group.middle, seen.eye)), near_plane);
+}
+
+float Selector::reach_of(std::size_t person) const {
+    return scale_of(person) * kinds_[crowd_.character[person]].reach[static_cast<std::size_t>(crowd_.role[person])];
+}
+
+// Points before the near plane don't show: what they stand for would be far from any that does.
+float Selector::exact_within(float radius, float reach) const {
+    return std::max(options_.way->nearest * radius, near_plane + reach);
 }
 
 float Selector::mean_demand_of(const Seen& seen, const Group& group) const {
@@ -506,7 +526,7 @@ Subject Selector::subject_of(std::size_t person, const Sight& sight, const Seen&
         sight.demand / options_.density, sight.demand,        seen.place};
     if (!limit_.is_set()) return subject;
     const float scale = scale_of(person);
-    subject.allowed = limit_.off(scale * kinds_[subject.character].radius, sight.depth) / scale;
+    subject.allowed = limit_.off(reach_of(person), sight.depth) / scale;
     return subject;
 }
 
@@ -563,7 +583,7 @@ Person Selector::choose(std::size_t person, const Sight& sight, const DrawingRul
                        kinds_[character].first_batch + choice * static_cast<std::uint32_t>(poses.pose_count) + pose,
                        sight.depth,
                        stands ? contact_reach * crowd_.height[person] : 0.0f};
-    add_errors(sight, drawn, subject, period, seen);
+    add_errors(person, sight, drawn, subject, period, seen);
     return drawn;
 }
 

@@ -101,6 +101,8 @@ private:
         // A ball around the character in every pose, on the axis that it turns about [model units].
         glm::vec3 center{0.0f};
         float radius = 0;
+        // How far from their middle anything of them may be drawn, who may have moved on since [model units].
+        std::array<float, scene::role_count> reach{};
         float overhang = 0;     // of their splats [model units]
         float mean_square = 1;  // of people's scales [m^2 / model unit^2]
         std::array<Staleness, scene::role_count> staleness{};
@@ -139,6 +141,7 @@ private:
     };
     static constexpr float unseen = -1.0f, behind = -2.0f;
 
+    void know_reach(std::size_t kind);
     void know_blocks();
     std::vector<std::vector<float>> find_spreads();
     void find_blocks();
@@ -163,10 +166,13 @@ private:
     void choose(Seen& seen, const DrawingRule& rule, std::int64_t last_tick);
     void choose_as_one(Seen& seen, const DrawingRule& rule, std::int64_t last_tick);
     Person choose(std::size_t person, const Sight& sight, const DrawingRule& rule, std::int64_t last_tick, Seen& seen);
-    void add_errors(const Sight& sight, const Person& person, const Subject& subject, int period, Seen& seen) const;
+    void add_errors(std::size_t number, const Sight& sight, const Person& person, const Subject& subject, int period,
+                    Seen& seen) const;
     void add_errors(const Group& group, const Subject& subject, int period, double people, Seen& seen) const;
     double cell() const;
-    float scale_of(std::size_t person) const;  // [m / model unit]
+    float scale_of(std::size_t person) const;             // [m / model unit]
+    float reach_of(std::size_t person) const;             // [m]
+    float exact_within(float radius, float reach) const;  // [m] nearer than this view depth they are drawn exactly
     static Turn turn_of(float yaw);
     Spot spot_of(const Seen& seen, std::size_t person, std::int64_t tick) const;
     glm::vec3 middle_of(const Seen& seen, std::size_t person) const;  // [m] camera-relative, of their ball

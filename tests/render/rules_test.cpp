@@ -11,6 +11,7 @@
 
 #include "render/select.h"
 #include "sfsm/prices.h"
+#include "sfsm/random.h"
 #include "tests/render/drawn_errors.h"
 #include "tests/render/drawn_points.h"
 #include "tests/render/lone_person.h"
@@ -382,6 +383,121 @@ TEST(Promise, IsKept) {
             EXPECT_GT(motion_share, 0.05) << "it says nothing";
             EXPECT_GT(splat_share, 0.05) << "it says nothing";
         }
+}
+
+// Of somebody around the eye a part is before the near plane, where no point of them shows; and who walks off is drawn
+// where they were.
+TEST(Promise, IsKeptByWhoIsAroundTheEye) {
+    const glm::vec3 feet(0);
+    std::uint64_t draws = 0;
+    const auto within = [&](double low, double high) {
+        return low + (high - low) * sfsm::unit(sfsm::stream(7, draws++));
+    };
+    for (const figures::Way* way : ways)
+        for (const scene::Role role : {scene::Role::standing, scene::Role::walker}) {
+            tests::LonePeople one(tests::make_lift(0.25f, 1, 4, 8), {&feet, 1}, 2000);
+            one.crowd.role[0] = role;
+            one.cast[0].gait_speed[static_cast<int>(scene::Role::walker)] = 8;  // [m/s]
+            one.crowd.blocks[0].box = {glm::vec3(-1000), glm::vec3(1000)};  // wherever they walk
+            Selector selector(one.crowd, one.cast, one.figures(), {.way = way});
+            for (const auto& [width, height] :
+                 {std::pair(1, 1), std::pair(4, 4), std::pair(64, 36), std::pair(640, 360)})
+                for (int i = 0; i < 200; ++i) {
+                    const std::int64_t now = tick + i;
+                    const glm::vec3 place = scene::place(one.crowd, 0, one.cast[0], now).position;
+                    const glm::dvec3 around(within(-4, 4), within(0, 2.5), within(-4, 4));
+                    const glm::dvec3 ahead(within(-1, 1), within(-1, 1), within(-1, 1));
+                    const glm::dvec3 eye = glm::dvec3(place) + around;
+                    selector.survey(render::make_view({eye, eye + ahead, 1.0}, width, height), now);
+                    const Frame exact = selector.select({}, now - 1);
+                    const auto numbers = tests::numbers_of(exact, one.crowd, one.cast, now);
+                    for (const double rate : {0.001, 0.02, 0.5, 1.4}) {
+                        const Frame& frame = selector.select(at_rate(rate), now - 1);
+                        const tests::Off off =
+                            tests::farthest_off(frame, exact, numbers, one.crowd, one.poses, *way, 1);
+                        ASSERT_LE(off.motion_px, frame.max_motion_px) << "rate " << rate << ", " << width << " px";
+                        ASSERT_LE(off.splat_px, frame.max_splat_px) << "rate " << rate << ", " << width << " px";
+                    }
+                }
+        }
+}
+
+// Who is in a lift is off by as far as it has gone since, wherever in its course.
+TEST(Promise, OfSomebodyAloneIsHardlyMoreThanTheyAreOff) {
+    const glm::vec3 feet(0);
+    const figures::Way& way = figures::by_opengl();
+    const tests::LonePeople one(tests::make_lift(0.25f, 1, 4, 2), {&feet, 1});
+    const render::View view = render::make_view({{0, 1.5, 60}, {0, 1.5, 0}, 0.1}, 640, 360);
+    for (const double distance : {10.0, 30.0}) {
+        sfsm::Decision decision{State::slowed, distance, 0};
+        Selector selector(one.crowd, one.cast, one.figures(), {.way = &way});
+        double most_off = 0, promised = 0;
+        for (std::int64_t now = tick; now < tick + 4 * motion::ticks_per_second; ++now) {
+            selector.survey(view, now);
+            const Frame exact = selector.select({}, now - 1);
+            const auto numbers = tests::numbers_of(exact, one.crowd, one.cast, now);
+            const Frame& frame = selector.select(decision, now - 1);
+            most_off =
+                std::max(most_off, tests::farthest_off(frame, exact, numbers, one.crowd, one.poses, way, 1).motion_px);
+            ASSERT_LE(most_off, frame.max_motion_px);
+            promised = frame.max_motion_px;
+        }
+        EXPECT_GT(most_off, 0.8 * promised)
+            << "D " << distance << " m, period " << motion::update_period(60, static_cast<float>(distance));
+    }
+}
+
+// Blocks that are drawn as one show poses that are a little old even if everybody moves in each frame.
+TEST(Promise, OfABlockDrawnAsOneCountsHowOldItsPosesAre) {
+    for (const figures::Way* way : ways) {
+        const tests::SmallScene& scene = scene_of(*way);
+        Selector selector = selector_of(*way);
+        const render::View view = render::make_view({{0, 1500, 300}, {0, 0, 0}, 0.4}, 640, 360);
+        const sfsm::Decision decision{State::points, std::numeric_limits<double>::infinity(), sfsm::max_splat_size};
+        double off_px = 0;
+        for (std::int64_t now = tick; now < tick + render::ticks_a_key; ++now) {
+            selector.survey(view, now);
+            const Frame exact = selector.select({}, now - 1);
+            const auto numbers = tests::numbers_of(exact, scene.crowd, scene.cast, now);
+            const Frame& frame = selector.select(decision, now - 1);
+            ASSERT_FALSE(frame.far_blocks.empty());
+            const tests::Off off = tests::farthest_off(frame, exact, numbers, scene.crowd, scene.poses, *way, 7);
+            ASSERT_LE(off.motion_px, frame.max_motion_px);
+            off_px = std::max(off_px, off.motion_px);
+        }
+        EXPECT_GT(off_px, 0.05);
+    }
+}
+
+// Whoever may be off by so much moves as seldom as that allows: by bounds of those alone, or of blocks.
+TEST(MaxError, IsUsedUpByHowOftenPeopleMove) {
+    const figures::Way& way = figures::natively();
+    const tests::SmallScene& scene = scene_of(way);
+    const auto role = scene::Role::spectator;
+    const figures::Choices choices(scene.figures()[0], way);
+    const auto staleness = render::measure_staleness(scene.crowd, scene.cast, scene.figures());
+    render::ErrorBounds bounds;
+    for (std::size_t period = 0; period <= motion::max_period; ++period) {
+        bounds.motion.single[0][period] = 0.01f * static_cast<float>(period);
+        bounds.motion.far[0][period] = 0.01f * static_cast<float>(period + 5);
+    }
+    const auto area = static_cast<double>(scene.poses[0].area),
+               height = static_cast<double>(scene.poses[0].rest_height);
+    render::RateForecaster forecaster({{{&choices, area, height}, staleness[0], &bounds, 1}}, way);
+    const render::View view = render::make_view({{0, 0, 0}, {0, 0, -1}, 0.8}, 640, 360);
+    const float depth = 100, pixels = view.pixels_per_metre(depth);
+    forecaster.begin(view, {});
+    forecaster.add({.people = 10, .depth = depth, .pixels_per_metre = pixels, .surface = 1.9f * pixels * pixels});
+    forecaster.finish();
+    render::RateRule rule(forecaster);
+    rule.decide(rate_at(Exchange::steps - 1), 1);
+    render::Subject subject{.role = role, .depth = depth, .pixels_per_metre = pixels};
+    const int wanted = rule.period_of(subject);
+    ASSERT_GE(wanted, 12);
+    subject.allowed = 0.095f;
+    EXPECT_EQ(rule.period_of(subject), 8) << "of the bounds 0.08 and, of the next, 0.12";
+    subject.is_block = true;
+    EXPECT_EQ(rule.period_of(subject), 4) << "of the bounds 0.09 and, of the next, 0.11";
 }
 
 }  // namespace
