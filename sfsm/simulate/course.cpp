@@ -17,7 +17,7 @@ Course make_course(Scenario scenario) {
     const Plant& plant = *made.plant;
     for (std::int64_t frame = 0; frame < made.frames; ++frame) {
         Best best;
-        best.decision = plant.optimum(frame, made.oracle_aim * made.target.at(frame));
+        best.decision = plant.optimum(frame, made.oracle_aim * due_ms(made, frame));
         best.cost_ms = plant.cost_ms(frame, best.decision);
         best.detail = plant.detail(frame, best.decision);
         course.best.push_back(best);

@@ -9,7 +9,7 @@
 
 namespace sfsm::simulate {
 
-// The decision of most detail that costs at most oracle_aim * target.
+// The decision of most detail that costs at most oracle_aim * due_ms().
 struct Best {
     Decision decision;
     double cost_ms = 0;

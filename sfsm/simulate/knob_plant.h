@@ -2,14 +2,12 @@
 // It has no forecast and counts no work: what feedback alone can do is measured here.
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "sfsm/simulate/plant.h"
 
 namespace sfsm::simulate {
 
-using OverFrames = std::function<double(std::int64_t frame)>;
 using KnobCurve = double (*)(double u);
 
 inline constexpr double least_knob = 0.05;

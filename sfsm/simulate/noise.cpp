@@ -29,4 +29,23 @@ double normal_at(std::uint64_t seed, std::int64_t frame, Stream stream) {
     return radius * std::cos(2 * std::numbers::pi * to_uniform(mix(bits)));
 }
 
+// N / sqrt(chi^2 / 3) has the deviation sqrt(3). A chi^2 of 3 is the sum of one of 2, which is exponential, and of one
+// of 1.
+double heavy_tailed_at(std::uint64_t seed, std::int64_t frame, Stream stream) {
+    const double normal = normal_at(seed, frame, Stream::chi);
+    const double chi2 = normal * normal - 2 * std::log(uniform_at(~seed, frame, Stream::chi));
+    return normal_at(seed, frame, stream) / std::sqrt(chi2);
+}
+
+double correlated_normal_at(std::uint64_t seed, std::int64_t frame, Stream stream, double correlation) {
+    constexpr double least_weight = 1e-3;
+    if (correlation <= 0) return normal_at(seed, frame, stream);
+    double sum = 0, weight = 1, squares = 0;
+    for (; weight > least_weight; weight *= correlation, --frame) {
+        sum += weight * normal_at(seed, frame, stream);
+        squares += weight * weight;
+    }
+    return sum / std::sqrt(squares);
+}
+
 }  // namespace sfsm::simulate

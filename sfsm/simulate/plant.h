@@ -3,11 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include "sfsm/decision.h"
 #include "sfsm/forecast.h"
 
 namespace sfsm::simulate {
+
+using OverFrames = std::function<double(std::int64_t frame)>;
 
 class Plant {
 public:

@@ -58,6 +58,19 @@ Work work_of(const Decision& decision, const View& view) {
     return work;
 }
 
+Work foreseen_work(const Decision& decision, const View& view) {
+    Work work = work_of(decision, view);
+    const auto misjudge = [&](WorkKind kind, double factor) {
+        work[kind] = std::llround(factor * static_cast<double>(work[kind]));
+    };
+    misjudge(WorkKind::person, view.foresight.person);
+    misjudge(WorkKind::single, view.foresight.person);
+    misjudge(WorkKind::triangle, view.foresight.triangle);
+    misjudge(WorkKind::point, view.foresight.point);
+    misjudge(WorkKind::motion_update, view.foresight.update);
+    return work;
+}
+
 double loss_of(const Decision& decision, const View& view) {
     const double shapes = decision.state == State::points ? splat_loss(usable_splat(decision)) : 0.0;
     return motion_loss(share_of(decision, view), view) + shapes;
@@ -104,15 +117,17 @@ View between(const View& from, const View& to, double share) {
             mix(from.theta, to.theta),
             mix(from.triangles_each, to.triangles_each),
             mix(from.points_each, to.points_each),
-            mix(from.surface_px, to.surface_px)};
+            mix(from.surface_px, to.surface_px),
+            {mix(from.foresight.person, to.foresight.person), mix(from.foresight.triangle, to.foresight.triangle),
+             mix(from.foresight.point, to.foresight.point), mix(from.foresight.update, to.foresight.update)}};
 }
 
-WorkPlant::WorkPlant(const Prices& prices, std::vector<View> views, ViewAt view_at, LoadAt load_at)
-    : prices_(prices), views_(std::move(views)), view_at_(std::move(view_at)), load_at_(std::move(load_at)) {
+WorkPlant::WorkPlant(const Prices& prices, std::vector<View> views, ViewAt view_at, Unforeseen unforeseen)
+    : prices_(prices), views_(std::move(views)), view_at_(std::move(view_at)), unforeseen_(std::move(unforeseen)) {
     tables_.reserve(views_.size());
     for (const View& view : views_) {
         Tables& tables = tables_.emplace_back(tables_of(view));
-        tables.forecast = {Work{std::llround(view.people)}, tables.motion, tables.shapes};
+        tables.forecast = {only_on<WorkAxis::frame>(foreseen_work({}, view)), tables.motion, tables.shapes};
     }
 }
 
@@ -121,13 +136,13 @@ WorkPlant::Tables WorkPlant::tables_of(const View& view) {
     for (int i = 0; i <= motion_steps; ++i) {
         const double share = std::max(nearest_share, 1 - static_cast<double>(i) / motion_steps);
         const Decision decision = i == 0 ? Decision{} : triangles_at(share, view);
-        tables.motion.push_back(
-            {decision.motion_distance, only_on<WorkAxis::motion>(work_of(decision, view)), motion_loss(share, view)});
+        tables.motion.push_back({decision.motion_distance, only_on<WorkAxis::motion>(foreseen_work(decision, view)),
+                                 motion_loss(share, view)});
     }
-    tables.shapes.push_back({0, only_on<WorkAxis::shape>(work_of({}, view)), 0});
+    tables.shapes.push_back({0, only_on<WorkAxis::shape>(foreseen_work({}, view)), 0});
     for (int i = 0; i <= splat_steps; ++i) {
         const double size = max_splat_size * std::exp2((i - splat_steps) / splat_steps_per_octave);
-        const Work work = work_of({State::points, view.range, size}, view);
+        const Work work = foreseen_work({State::points, view.range, size}, view);
         tables.shapes.push_back({size, only_on<WorkAxis::shape>(work), splat_loss(size)});
     }
     return tables;
@@ -138,11 +153,11 @@ double WorkPlant::range(std::int64_t frame) const {
 }
 
 const Forecast* WorkPlant::forecast(std::int64_t frame) const {
-    return &tables_[view_at_(frame)].forecast;
+    return unforeseen_.is_silent ? nullptr : &tables_[view_at_(frame)].forecast;
 }
 
 double WorkPlant::cost_ms(std::int64_t frame, const Decision& decision) const {
-    return load(frame) * cost_of(decision, view(frame), prices_);
+    return load(frame) * cost_of(decision, view(frame), prices_) + unpriced_ms(frame);
 }
 
 Work WorkPlant::work(std::int64_t frame, const Decision& decision) const {
@@ -155,7 +170,7 @@ double WorkPlant::detail(std::int64_t frame, const Decision& decision) const {
 
 Decision WorkPlant::optimum(std::int64_t frame, double limit_ms) const {
     const View& seen = view(frame);
-    const double limit = limit_ms / load(frame);
+    const double limit = (limit_ms - unpriced_ms(frame)) / load(frame);
     if (cost_of(Decision{}, seen, prices_) <= limit) return {};
     Decision best{State::points, nearest_share * seen.range, max_splat_size};
     const auto consider = [&](const std::optional<Decision>& decision) {

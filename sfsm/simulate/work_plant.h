@@ -10,6 +10,11 @@
 
 namespace sfsm::simulate {
 
+// Counts foreseen, in shares of those drawn; 1: an honest forecast.
+struct Foresight {
+    double person = 1, triangle = 1, point = 1, update = 1;
+};
+
 // What the camera sees. The share of people nearer than x L is x^farness: a crowd on the far stands has a large
 // farness. People beyond D are all taken to be about L away, where equation 1 gives f = 1 + theta (L - D).
 struct View {
@@ -20,6 +25,14 @@ struct View {
     double triangles_each = 1000;  // of a person
     double points_each = 1500;     // of a person at S = 1 px; in proportion to 1 / S
     double surface_px = 0.05;      // how far a moving person's surface gets in a frame [px]
+    Foresight foresight = {};
+};
+
+// What views and prices don't say.
+struct Unforeseen {
+    OverFrames load = {};         // multiplies all prices; empty: 1
+    OverFrames unpriced_ms = {};  // on top, of no kind of work; empty: 0
+    bool is_silent = false;       // work is counted, but there is no forecast
 };
 
 // Half way from one view to another at 0.5. `share` in [0, 1].
@@ -30,9 +43,8 @@ View between(const View& from, const View& to, double share);
 class WorkPlant final : public Plant {
 public:
     using ViewAt = std::function<std::size_t(std::int64_t frame)>;  // an index into `views`
-    using LoadAt = std::function<double(std::int64_t frame)>;       // multiplies all prices; empty: 1
 
-    WorkPlant(const Prices& prices, std::vector<View> views, ViewAt view_at, LoadAt load_at = {});
+    WorkPlant(const Prices& prices, std::vector<View> views, ViewAt view_at, Unforeseen unforeseen = {});
 
     double range(std::int64_t frame) const override;
     const Forecast* forecast(std::int64_t frame) const override;
@@ -49,13 +61,16 @@ private:
 
     static Tables tables_of(const View& view);
     const View& view(std::int64_t frame) const { return views_[view_at_(frame)]; }
-    double load(std::int64_t frame) const { return load_at_ ? load_at_(frame) : 1.0; }
+    double load(std::int64_t frame) const { return unforeseen_.load ? unforeseen_.load(frame) : 1.0; }
+    double unpriced_ms(std::int64_t frame) const {
+        return unforeseen_.unpriced_ms ? unforeseen_.unpriced_ms(frame) : 0.0;
+    }
 
     Prices prices_;
     std::vector<View> views_;
     std::vector<Tables> tables_;  // of each view
     ViewAt view_at_;
-    LoadAt load_at_;
+    Unforeseen unforeseen_;
 };
 
 }  // namespace sfsm::simulate

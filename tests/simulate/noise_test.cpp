@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <set>
 
 namespace sfsm::simulate {
@@ -64,6 +65,42 @@ TEST(Noise, FramesSeedsAndStreamsAreUncorrelated) {
     EXPECT_NEAR(frames / samples, 0, mean_tolerance);
     EXPECT_NEAR(seeds / samples, 0, mean_tolerance);
     EXPECT_NEAR(streams / samples, 0, mean_tolerance);
+}
+
+// Neighbours share what they remember, so as many samples tell less: the sums' deviations are sqrt(19) times as large.
+TEST(Noise, CorrelatedNoiseRemembersAsMuchAsStated) {
+    constexpr double correlation = 0.9;
+    constexpr std::int64_t some = 20'000;
+    const double tolerance = 5 * std::sqrt(19.0 / some);
+    double sum = 0, squares = 0, next = 0, tenth = 0;
+    for (std::int64_t frame = 0; frame < some; ++frame) {
+        const auto at = [](std::int64_t k) { return correlated_normal_at(1, k, Stream::noise, correlation); };
+        const double x = at(frame);
+        sum += x;
+        squares += x * x;
+        next += x * at(frame + 1);
+        tenth += x * at(frame + 10);
+    }
+    EXPECT_NEAR(sum / some, 0, tolerance);
+    EXPECT_NEAR(squares / some, 1, tolerance);
+    EXPECT_NEAR(next / squares, correlation, 0.02);
+    EXPECT_NEAR(tenth / squares, std::pow(correlation, 10), 0.1);
+}
+
+TEST(Noise, WithoutCorrelationItIsTheNormal) {
+    EXPECT_EQ(correlated_normal_at(3, 7, Stream::noise, 0), normal_at(3, 7, Stream::noise));
+}
+
+// Of Student's t of 3 degrees over its deviation sqrt(3): beyond x are 1 - (2 / pi) (x / (1 + x^2) + atan x).
+TEST(Noise, HeavyTailsAreStudentsOfThreeDegrees) {
+    const auto beyond = [](double x) { return 1 - 2 / std::numbers::pi * (x / (1 + x * x) + std::atan(x)); };
+    for (const double x : {0.5, 1.0, 3.0, 8.0}) {
+        double found = 0;
+        for (std::int64_t frame = 0; frame < samples; ++frame)
+            found += std::abs(heavy_tailed_at(1, frame, Stream::noise)) > x ? 1 : 0;
+        const double share = beyond(x);
+        EXPECT_NEAR(found / samples, share, 5 * std::sqrt(share / samples)) << x;
+    }
 }
 
 }  // namespace

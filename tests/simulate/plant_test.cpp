@@ -32,8 +32,8 @@ constexpr View some_view{.people = 20000,
 constexpr Prices some_prices{2, {1e-4, 1e-6, 1e-6, 5e-4}};
 
 WorkPlant work_plant(double load = 1) {
-    return WorkPlant(
-        some_prices, {some_view}, [](std::int64_t) { return std::size_t{0}; }, [=](std::int64_t) { return load; });
+    return WorkPlant(some_prices, {some_view}, [](std::int64_t) { return std::size_t{0}; },
+                     {.load = [=](std::int64_t) { return load; }});
 }
 
 TEST(KnobPlant, CostsWhatTheToyCheckSays) {
@@ -188,6 +188,40 @@ TEST(WorkPlant, AViewHalfWayIsHalfWay) {
     EXPECT_DOUBLE_EQ(half.people, 25000);
     EXPECT_DOUBLE_EQ(half.range, 300);
     EXPECT_DOUBLE_EQ(half.farness, some_view.farness);
+}
+
+TEST(WorkPlant, AForecastIsOffByTheForesightAndTheWorkIsNot) {
+    View misjudged = some_view;
+    misjudged.foresight = {.person = 1.5, .triangle = 2, .point = 0.5, .update = 3};
+    const auto first = [](std::int64_t) { return std::size_t{0}; };
+    const WorkPlant honest(some_prices, {some_view}, first), off(some_prices, {misjudged}, first);
+    const Forecast &told = *honest.forecast(0), &mistold = *off.forecast(0);
+    const auto ratio = [](const Work& a, const Work& b, WorkKind kind) {
+        return static_cast<double>(a[kind]) / static_cast<double>(b[kind]);
+    };
+    constexpr double whole_counts = 1e-3;
+    EXPECT_NEAR(ratio(mistold.frame, told.frame, WorkKind::person), 1.5, whole_counts);
+    EXPECT_NEAR(ratio(mistold.shapes[0].work, told.shapes[0].work, WorkKind::triangle), 2, whole_counts);
+    EXPECT_NEAR(ratio(mistold.shapes[9].work, told.shapes[9].work, WorkKind::point), 0.5, whole_counts);
+    EXPECT_NEAR(ratio(mistold.motion[5].work, told.motion[5].work, WorkKind::motion_update), 3, whole_counts);
+    for (const Decision& decision : {Decision{}, Decision{State::points, 100, 4}}) {
+        EXPECT_EQ(off.work(0, decision), honest.work(0, decision));
+        EXPECT_EQ(off.cost_ms(0, decision), honest.cost_ms(0, decision));
+    }
+}
+
+TEST(WorkPlant, ASilentOneCountsWorkButForecastsNothing) {
+    const WorkPlant plant(some_prices, {some_view}, [](std::int64_t) { return std::size_t{0}; }, {.is_silent = true});
+    EXPECT_EQ(plant.forecast(0), nullptr);
+    EXPECT_GT(plant.work(0, {})[WorkKind::triangle], 0);
+}
+
+TEST(WorkPlant, AnUnpricedCostComesOnTopAndTheOptimumKnowsIt) {
+    const WorkPlant plain = work_plant(2);
+    const WorkPlant plant(some_prices, {some_view}, [](std::int64_t) { return std::size_t{0}; },
+                          {.load = [](std::int64_t) { return 2.0; }, .unpriced_ms = [](std::int64_t) { return 5.0; }});
+    EXPECT_DOUBLE_EQ(plant.cost_ms(0, {}), plain.cost_ms(0, {}) + 5);
+    EXPECT_EQ(plant.optimum(0, 25), plain.optimum(0, 20));
 }
 
 }  // namespace

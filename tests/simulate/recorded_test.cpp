@@ -44,10 +44,11 @@ std::vector<View> views() {
     return all;
 }
 
-Scenario original(WorkPlant::LoadAt load = {}) {
+Scenario original(OverFrames load = {}) {
     Scenario scenario;
     scenario.plant = std::make_shared<WorkPlant>(
-        true_prices, views(), [](std::int64_t frame) { return static_cast<std::size_t>(frame % 100); }, load);
+        true_prices, views(), [](std::int64_t frame) { return static_cast<std::size_t>(frame % 100); },
+        Unforeseen{.load = std::move(load)});
     scenario.target = TargetSchedule::parse("16,9@200");
     scenario.frames = 400;
     scenario.delay = 1;

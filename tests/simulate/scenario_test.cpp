@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "sfsm/replay.h"
 
@@ -117,6 +119,91 @@ TEST(Scenario, ToyLoadStepsUpDownAndRamps) {
     EXPECT_DOUBLE_EQ(load(1800), 1);
     EXPECT_DOUBLE_EQ(load(2700), 1);
     EXPECT_DOUBLE_EQ(load(3150), 1.25);
+}
+
+TEST(Scenario, NoFrameIsFasterThanACapAndSlowOnesDoNotWait) {
+    Scenario scenario = make_scenario("frame-cap-5");
+    scenario.noise = 0;
+    const double cap = 1.05 * scenario.target.at(0);
+    EXPECT_DOUBLE_EQ(measured_ms(scenario, 1, 0, 0.3 * cap), cap);
+    EXPECT_DOUBLE_EQ(measured_ms(scenario, 1, 0, 0.99 * cap), cap);
+    EXPECT_DOUBLE_EQ(measured_ms(scenario, 1, 0, 1.3 * cap), 1.3 * cap);
+    EXPECT_DOUBLE_EQ(due_ms(scenario, 0), cap);
+    scenario.cap_ms = 0.5 * cap;
+    EXPECT_DOUBLE_EQ(due_ms(scenario, 0), scenario.target.at(0));
+}
+
+// A time is the difference of two stamps that are off by U(-1/2, 1/2) of the jitter.
+TEST(Scenario, JitterIsOfTheStatedSpreadAndEvensOut) {
+    Scenario scenario = make_scenario("vsync-jitter-3pct");
+    scenario.noise = 0;
+    EXPECT_NEAR(scenario.jitter_ms, 0.03 * scenario.refresh_ms, 1e-12);
+    double sum = 0, squares = 0, most = 0;
+    for (std::int64_t frame = 0; frame < samples; ++frame) {
+        const double off = measured_ms(scenario, 1, frame, 0.5 * scenario.refresh_ms) - scenario.refresh_ms;
+        sum += off;
+        squares += off * off;
+        most = std::max(most, std::abs(off));
+    }
+    EXPECT_LE(std::abs(sum), scenario.jitter_ms + 1e-6) << "what one time has too much the next has too little";
+    const double deviation = scenario.jitter_ms / std::sqrt(6.0);
+    EXPECT_NEAR(std::sqrt(squares / samples), deviation, 0.05 * deviation);
+    EXPECT_LE(most, scenario.jitter_ms);
+    EXPECT_GT(most, 0.9 * scenario.jitter_ms);
+}
+
+TEST(Scenario, VariableRefreshShowsAtOnceWithinItsRange) {
+    Scenario scenario = make_scenario("variable-refresh");
+    scenario.noise = scenario.jitter_ms = 0;
+    const double least = 1000.0 / 144, longest = 1000.0 / 48;
+    EXPECT_DOUBLE_EQ(measured_ms(scenario, 1, 0, 0.2 * least), least);
+    EXPECT_DOUBLE_EQ(measured_ms(scenario, 1, 0, 1.7 * least), 1.7 * least);
+    EXPECT_DOUBLE_EQ(measured_ms(scenario, 1, 0, longest), longest);
+    EXPECT_DOUBLE_EQ(measured_ms(scenario, 1, 0, longest + 0.1), longest + least) << "the last frame is shown again";
+    EXPECT_DOUBLE_EQ(measured_ms(scenario, 1, 0, 2 * longest), 2 * longest);
+}
+
+TEST(Scenario, BurstsLastAsLongAsStated) {
+    Scenario scenario = make_scenario("bursts");
+    scenario.noise = 0;
+    const double target = scenario.target.at(0);
+    std::int64_t in_burst = 0;
+    for (std::int64_t frame = 0; frame < 3000; ++frame) {
+        const double on_top = measured_ms(scenario, 1, frame, target) / target - 1;
+        if (on_top < 1e-9) continue;
+        EXPECT_NEAR(on_top, 0.8, 1e-9);
+        ++in_burst;
+    }
+    EXPECT_EQ(in_burst, 10 * 12);
+}
+
+TEST(Scenario, SwingingLoadsSwingByAThird) {
+    for (const auto& [name, period] : {std::pair{"swing-100", 100}, {"swing-200", 200}, {"swing-400", 400}}) {
+        const Scenario scenario = make_scenario(name);
+        const double at_rest = scenario.plant->cost_ms(0, {});
+        EXPECT_NEAR(scenario.plant->cost_ms(period / 2, {}) / at_rest, 4.0 / 3, 1e-9) << name;
+        EXPECT_NEAR(scenario.plant->cost_ms(period, {}) / at_rest, 1, 1e-9) << name;
+    }
+}
+
+TEST(Scenario, AHiddenCostMovesFromOneToSevenMilliseconds) {
+    const Scenario scenario = make_scenario("hidden-cost");
+    const Scenario plain = make_scenario("quiet-forecast");
+    const auto hidden = [&](std::int64_t frame) {
+        return scenario.plant->cost_ms(frame, {}) - plain.plant->cost_ms(frame, {});
+    };
+    EXPECT_NEAR(hidden(0), 1, 1e-9);
+    EXPECT_NEAR(hidden(120), 7, 1e-9);
+    EXPECT_NEAR(hidden(240), 1, 1e-9);
+    EXPECT_EQ(scenario.plant->work(120, {}), plain.plant->work(120, {}));
+}
+
+TEST(Scenario, NothingMeetsATargetOutOfReach) {
+    for (const char* name : {"out-of-reach", "out-of-reach-untold"}) {
+        const Scenario scenario = make_scenario(name);
+        const Decision coarsest = scenario.plant->optimum(0, 0);
+        EXPECT_GT(scenario.plant->cost_ms(0, coarsest), 2.5 * scenario.target.at(0)) << name;
+    }
 }
 
 }  // namespace
