@@ -7,6 +7,8 @@
 #include <functional>
 #include <vector>
 
+#include "sfsm/detail.h"
+
 namespace sfsm::simulate {
 namespace {
 
@@ -31,11 +33,16 @@ bool is_interrupted(const Scenario& scenario, std::int64_t frame) {
                        [=](const Interruption& interruption) { return interruption.frames.contains(frame); });
 }
 
-bool is_judged(const Course& course, std::int64_t frame) {
+// t can be met in this frame.
+bool is_in_reach(const Course& course, std::int64_t frame) {
     constexpr double rounding = 1e-6;
     const Scenario& scenario = course.scenario;
-    return frame >= scenario.statistics_from && !is_interrupted(scenario, frame) &&
-           course.best[static_cast<std::size_t>(frame)].cost_ms <= (1 + rounding) * scenario.target.at(frame);
+    return course.best[static_cast<std::size_t>(frame)].cost_ms <= (1 + rounding) * due_ms(scenario, frame);
+}
+
+bool is_judged(const Course& course, std::int64_t frame) {
+    const Scenario& scenario = course.scenario;
+    return frame >= scenario.statistics_from && !is_interrupted(scenario, frame) && is_in_reach(course, frame);
 }
 
 std::vector<Outcome> judged_frames(const Course& course, std::span<const Outcome> outcomes) {
@@ -200,9 +207,107 @@ std::optional<double> recovery(const Scenario& scenario, std::span<const Outcome
     });
 }
 
-}  // namespace
+std::optional<double> regain(const Course& course, std::span<const Outcome> outcomes) {
+    std::optional<double> slowest;
+    for (const Frames& regained : course.scenario.regained) {
+        const std::optional<double> frames = frames_until(regained.begin, regained.end, [&](std::int64_t frame) {
+            return at(outcomes, frame).detail >=
+                   course.scenario.regained_share * course.best[static_cast<std::size_t>(frame)].detail;
+        });
+        if (!frames) return {};
+        slowest = std::max(slowest.value_or(0), *frames);
+    }
+    return slowest;
+}
 
-Metrics measure(const Course& course, std::span<const Outcome> outcomes) {
+bool is_stuck(const Course& course, std::span<const Outcome> outcomes) {
+    constexpr std::int64_t last = 600;
+    std::int64_t judged = 0, over = 0;
+    double detail = 0, best = 0;
+    for (std::int64_t frame = std::max<std::int64_t>(0, std::ssize(outcomes) - last); frame < std::ssize(outcomes);
+         ++frame) {
+        if (is_interrupted(course.scenario, frame)) continue;
+        detail += at(outcomes, frame).detail;
+        best += course.best[static_cast<std::size_t>(frame)].detail;
+        if (!is_judged(course, frame)) continue;
+        ++judged;
+        over += is_over(at(outcomes, frame)) ? 1 : 0;
+    }
+    return 2 * over > judged || 2 * detail < best;
+}
+
+double mean_ms(const Scenario& scenario, std::span<const Outcome> outcomes) {
+    double sum_ms = 0, frames = 0;
+    for (std::int64_t frame = scenario.statistics_from; frame < std::ssize(outcomes); ++frame) {
+        if (is_interrupted(scenario, frame)) continue;
+        sum_ms += at(outcomes, frame).ms;
+        ++frames;
+    }
+    return frames > 0 ? sum_ms / frames : 0;
+}
+
+double effective_splat(const Decision& decision) {
+    return decision.state == State::points ? std::max(finest_splat, decision.splat_size) : finest_splat;
+}
+
+double octaves(double from, double to) {
+    return from > 0 && to > 0 ? std::abs(std::log2(to / from)) : 0;
+}
+
+double octaves(const Work& from, const Work& to) {
+    double most = 0;
+    for (std::size_t kind = 0; kind < work_kinds; ++kind)
+        most = std::max(most, octaves(counted(from.counts[kind]), counted(to.counts[kind])));
+    return most;
+}
+
+// What forecasts offer at least and at most.
+double octaves(const Forecast* from, const Forecast* to) {
+    if (!from || !to || from == to) return 0;
+    return std::max({octaves(from->frame, to->frame), octaves(from->motion.front().work, to->motion.front().work),
+                     octaves(from->motion.back().work, to->motion.back().work),
+                     octaves(from->shapes.front().work, to->shapes.front().work),
+                     octaves(from->shapes.back().work, to->shapes.back().work)});
+}
+
+constexpr std::int64_t first_frames = 10;
+
+double largest_step(const Scenario& scenario, std::span<const Outcome> outcomes) {
+    double largest = 0;
+    for (std::int64_t frame = first_frames; frame < std::ssize(outcomes); ++frame) {
+        const Outcome &before = at(outcomes, frame - 1), &now = at(outcomes, frame);
+        const double told = octaves(before.target_ms, now.target_ms) +
+                            octaves(scenario.plant->forecast(frame - 1), scenario.plant->forecast(frame));
+        const double step = octaves(effective_splat(before.decision), effective_splat(now.decision));
+        largest = std::max(largest, step - told);
+    }
+    return largest;
+}
+
+void measure_first(Metrics& metrics, const Course& course, std::span<const Outcome> outcomes) {
+    std::vector<double> settled;
+    for (std::int64_t frame = first_frames; frame < std::ssize(outcomes); ++frame) {
+        if (is_judged(course, frame)) settled.push_back(effective_splat(at(outcomes, frame).decision));
+    }
+    if (settled.empty()) return;
+    const auto middle = settled.begin() + std::ssize(settled) / 2;
+    std::nth_element(settled.begin(), middle, settled.end());
+    for (std::int64_t frame = 0; frame < std::min(first_frames, std::ssize(outcomes)); ++frame) {
+        if (!is_in_reach(course, frame)) continue;
+        const Outcome& outcome = at(outcomes, frame);
+        metrics.first_over = std::max(metrics.first_over, outcome.cost_ms / outcome.target_ms);
+        metrics.first_coarse = std::max(metrics.first_coarse, effective_splat(outcome.decision) / *middle);
+    }
+}
+
+// Under a cap nothing can be faster than it.
+std::vector<Outcome> with_due_times(const Scenario& scenario, std::span<const Outcome> outcomes) {
+    std::vector<Outcome> due(outcomes.begin(), outcomes.end());
+    for (Outcome& outcome : due) outcome.target_ms = std::max(outcome.target_ms, scenario.cap_ms);
+    return due;
+}
+
+Metrics measure_due(const Course& course, std::span<const Outcome> outcomes) {
     Metrics metrics;
     const std::vector<Outcome> judged = judged_frames(course, outcomes);
     measure_shares(metrics, judged);
@@ -212,7 +317,19 @@ Metrics measure(const Course& course, std::span<const Outcome> outcomes) {
     metrics.overshoot_pct = overshoot_pct(course, outcomes);
     measure_rest(metrics, course.scenario, outcomes);
     metrics.recovery = recovery(course.scenario, outcomes);
+    metrics.regain = regain(course, outcomes);
+    metrics.is_stuck = is_stuck(course, outcomes) ? 1 : 0;
+    metrics.mean_ms = mean_ms(course.scenario, outcomes);
+    metrics.largest_step = largest_step(course.scenario, outcomes);
+    measure_first(metrics, course, outcomes);
     return metrics;
+}
+
+}  // namespace
+
+Metrics measure(const Course& course, std::span<const Outcome> outcomes) {
+    if (course.scenario.cap_ms <= 0) return measure_due(course, outcomes);
+    return measure_due(course, with_due_times(course.scenario, outcomes));
 }
 
 }  // namespace sfsm::simulate

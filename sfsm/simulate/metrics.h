@@ -8,9 +8,9 @@
 
 namespace sfsm::simulate {
 
-// T: measured time; t: the user's target; d: the detail of a frame's decision; C: its cost, free of noise.
-// Judged frames: those from statistics_from on that are not interrupted and in which t can be met (the best decision
-// costs no more). Where there are none, all figures of judged frames are 0.
+// T: measured time; t: the user's target, or an outside cap where that is slower; d: the detail of a frame's decision;
+// C: its cost, free of noise. Judged frames: those from statistics_from on that are not interrupted and in which t can
+// be met (the best decision costs no more). Where there are none, all figures of judged frames are 0.
 struct Metrics {
     double judged_ms = 0;       // sum of T of judged frames; 0: there are none
     double over_target = 0;     // share of judged frames with T > t
@@ -48,6 +48,28 @@ struct Metrics {
     // within 2 % of its mean in the 60 frames before the first interruption. 0: it never left. Nothing: it never came
     // back, or there is no interruption.
     std::optional<double> recovery;
+
+    // Frames from where the best detail can be had again (Scenario::regained) until in 57 of 60 frames d is at least
+    // Scenario::regained_share of it. Of several the slowest counts. Nothing: it never was, or nothing is to be
+    // regained.
+    std::optional<double> regain;
+
+    // In the last 600 frames, of those that are judged more than half have T > 1.05 t, or d is less than half the
+    // best's: 1, else 0.
+    double is_stuck = 0;
+
+    // Mean T of the frames from statistics_from on that are not interrupted, whether t can be met or not [ms].
+    double mean_ms = 0;
+
+    // What is seen of a single frame's change, in octaves of the effective S: the splat size, but finest_splat where
+    // it is less or people are meshes. The largest change from a frame to the next, less what target and forecast
+    // changed by themselves: by octaves of the target and of the count that changed most. From frame 10 on.
+    double largest_step = 0;
+
+    // Of the first ten frames that t can be met in: the largest C / t; and the largest effective S over its median in
+    // the judged frames.
+    double first_over = 0;
+    double first_coarse = 0;
 };
 
 Metrics measure(const Course& course, std::span<const Outcome> outcomes);

@@ -42,19 +42,38 @@ std::optional<double> median_of(std::span<const Metrics> runs, std::optional<dou
     return std::isfinite(middle) ? std::optional(middle) : std::nullopt;
 }
 
+constexpr double Metrics::*shares[] = {
+    &Metrics::judged_ms,        &Metrics::over_target,        &Metrics::over_5pct,
+    &Metrics::within_5pct,      &Metrics::within_10pct,       &Metrics::control_rate,
+    &Metrics::worst_second,     &Metrics::hitch_ms_per_s,     &Metrics::quality,
+    &Metrics::overshoot_pct,    &Metrics::reversals_per_1000, &Metrics::variation_per_1000,
+    &Metrics::changes_per_1000, &Metrics::is_stuck,           &Metrics::mean_ms,
+    &Metrics::largest_step,     &Metrics::first_over,         &Metrics::first_coarse};
+constexpr double Metrics::*to_be_large[] = {&Metrics::judged_ms, &Metrics::within_5pct, &Metrics::within_10pct,
+                                            &Metrics::control_rate, &Metrics::quality};
+constexpr std::optional<double> Metrics::*times[] = {&Metrics::settle_down,      &Metrics::settle_up,
+                                                     &Metrics::cost_settle_down, &Metrics::cost_settle_up,
+                                                     &Metrics::recovery,         &Metrics::regain};
+
 Metrics median_of(std::span<const Metrics> runs) {
     Metrics middle;
-    for (const auto figure : {&Metrics::judged_ms, &Metrics::over_target, &Metrics::over_5pct, &Metrics::within_5pct,
-                              &Metrics::within_10pct, &Metrics::control_rate, &Metrics::worst_second,
-                              &Metrics::hitch_ms_per_s, &Metrics::quality, &Metrics::overshoot_pct,
-                              &Metrics::reversals_per_1000, &Metrics::variation_per_1000, &Metrics::changes_per_1000}) {
-        middle.*figure = median_of(runs, figure);
-    }
-    for (const auto figure : {&Metrics::settle_down, &Metrics::settle_up, &Metrics::cost_settle_down,
-                              &Metrics::cost_settle_up, &Metrics::recovery}) {
-        middle.*figure = median_of(runs, figure);
-    }
+    for (const auto figure : shares) middle.*figure = median_of(runs, figure);
+    for (const auto figure : times) middle.*figure = median_of(runs, figure);
     return middle;
+}
+
+// A missing figure is worse than any number.
+Metrics worst_of(std::span<const Metrics> runs) {
+    Metrics worst = runs.front();
+    for (const Metrics& run : runs.subspan(1)) {
+        for (const auto figure : shares) {
+            const bool is_large = std::ranges::find(to_be_large, figure) != std::end(to_be_large);
+            worst.*figure = is_large ? std::min(worst.*figure, run.*figure) : std::max(worst.*figure, run.*figure);
+        }
+        for (const auto figure : times)
+            worst.*figure = worst.*figure && run.*figure ? std::max(worst.*figure, run.*figure) : std::nullopt;
+    }
+    return worst;
 }
 
 std::vector<Metrics> run_seeds(const Course& course, const Contestant& law, double factor, int seeds) {
@@ -72,14 +91,20 @@ double misses(const Course& course, const Contestant& law, double factor, int se
     return median_of(run_seeds(course, law, factor, seeds), &Metrics::over_5pct);
 }
 
+struct Factor {
+    double value = 1;
+    bool is_equal = true;  // as often as asked, or as often as a step of the search allows
+};
+
 // The largest share of the target at which the law misses no more often than asked.
-double equal_miss_factor(const Course& course, const Contestant& law, double asked, int seeds) {
+Factor equal_miss_factor(const Course& course, const Contestant& law, double asked, int seeds) {
     double low = std::log(least_factor), high = std::log(most_factor);
+    const double least = low, most = high;
     for (int i = 0; i < bisections; ++i) {
         const double middle = (low + high) / 2;
         (misses(course, law, std::exp(middle), seeds) <= asked ? low : high) = middle;
     }
-    return std::exp(low);
+    return {std::exp(low), low > least && high < most};
 }
 
 // Of the fastest run: what else the machine does can only slow a run down.
@@ -104,6 +129,7 @@ struct Arena {
     Course course;
     double oracle_over_5pct = 0;
     double asked_over_5pct = 0;  // the reference's, of the seeds that the search goes through
+    bool is_judged = true;       // some frames are; else nothing can be missed
 };
 
 int seeds_to_search(const ScorecardOptions& options) {
@@ -111,9 +137,12 @@ int seeds_to_search(const ScorecardOptions& options) {
 }
 
 Arena make_arena(const Scenario& scenario, const ScorecardOptions& options) {
-    Arena arena{make_course(scenario)};
+    Arena arena;
+    arena.course = make_course(scenario);
     const Contestant oracle{"", [](const Course& course) { return std::make_unique<Oracle>(course); }};
-    arena.oracle_over_5pct = misses(arena.course, oracle, 1, options.seeds);
+    const Metrics known = median_of(run_seeds(arena.course, oracle, 1, options.seeds));
+    arena.oracle_over_5pct = known.over_5pct;
+    arena.is_judged = known.judged_ms > 0;
     arena.asked_over_5pct = misses(arena.course, options.reference, 1, seeds_to_search(options));
     return arena;
 }
@@ -127,15 +156,17 @@ Row make_row(const Arena& arena, const Contestant& law, Tuning tuning, double fa
     row.tuning = tuning;
     row.target_factor = factor;
     row.median = median_of(runs);
-    row.worst_quality = runs.front().quality;
+    row.worst = worst_of(runs);
+    row.least_mean_ms = runs.front().mean_ms;
     for (const Metrics& run : runs) {
-        row.worst_over_5pct = std::max(row.worst_over_5pct, run.over_5pct);
-        row.worst_quality = std::min(row.worst_quality, run.quality);
+        row.stuck_seeds += run.is_stuck > 0 ? 1 : 0;
+        row.least_mean_ms = std::min(row.least_mean_ms, run.mean_ms);
     }
     row.oracle_over_5pct = arena.oracle_over_5pct;
     row.has_step_down = has_step(scenario, true);
     row.has_step_up = has_step(scenario, false);
     row.has_interruption = !scenario.interruptions.empty();
+    row.has_regain = !scenario.regained.empty();
     return row;
 }
 
@@ -143,10 +174,11 @@ std::vector<Row> rows_of(const Arena& arena, const Contestant& law, const Scorec
     std::vector<Row> rows = {make_row(arena, law, Tuning::own, 1, options.seeds)};
     rows.front().us_per_frame = time_law(arena.course, law, options.now_us);
     if (!law.is_retuned) return rows;
-    const double factor = law.name == options.reference.name
-                              ? 1
-                              : equal_miss_factor(arena.course, law, arena.asked_over_5pct, seeds_to_search(options));
-    rows.push_back(make_row(arena, law, Tuning::equal_miss, factor, options.seeds));
+    Factor factor;
+    if (law.name != options.reference.name && arena.is_judged)
+        factor = equal_miss_factor(arena.course, law, arena.asked_over_5pct, seeds_to_search(options));
+    rows.push_back(make_row(arena, law, Tuning::equal_miss, factor.value, options.seeds));
+    rows.back().is_equal = factor.is_equal;
     rows.back().us_per_frame = rows.front().us_per_frame;
     return rows;
 }

@@ -28,13 +28,16 @@ struct Row {
     std::string scenario, law;
     Tuning tuning = Tuning::own;
     double target_factor = 1;
+    bool is_equal = true;  // false: equal-miss asked for misses that the factor's range doesn't reach
     // Medians over the seeds, of each figure by itself. A missing figure counts as more than any number.
     Metrics median;
-    double worst_over_5pct = 0;  // of all seeds
-    double worst_quality = 0;
+    Metrics worst;  // of all seeds, of each figure by itself: the largest, of those that are to be large the least
+    int stuck_seeds = 0;          // Metrics::is_stuck
+    double least_mean_ms = 0;     // of all seeds; the most is worst.mean_ms
     double oracle_over_5pct = 0;  // median
     double us_per_frame = 0;      // of decide and observe, in the fastest of ten runs; 0 without a clock
-    bool has_step_down = false, has_step_up = false, has_interruption = false;  // tells "never" from "not asked"
+    bool has_step_down = false, has_step_up = false, has_interruption = false,
+         has_regain = false;  // tells "never" from "not asked"
 };
 
 struct ScorecardOptions {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <utility>
@@ -247,6 +248,86 @@ TEST(Metrics, OfNoJudgedFramesAreZeros) {
     EXPECT_EQ(m.over_5pct, 0);
     EXPECT_EQ(m.within_5pct, 0);
     EXPECT_EQ(m.quality, 0);
+}
+
+TEST(Metrics, RegainIsTheSlowestWayBackToEnoughOfTheBestDetail) {
+    Course course = plain_course(600);
+    course.scenario.regained = {{100, 300}, {300, 600}};
+    course.scenario.regained_share = 0.9;
+    const auto back_after = [&](std::int64_t first, std::int64_t second) {
+        return measured(course, [=](std::int64_t frame, Outcome& o) {
+            const bool is_away = (frame >= 100 && frame < 100 + first) || (frame >= 300 && frame < 300 + second);
+            o.detail = best_detail * (is_away ? 0.89 : 0.91);
+        });
+    };
+    EXPECT_EQ(back_after(20, 7).regain, 20);
+    EXPECT_EQ(back_after(20, 70).regain, 70);
+    EXPECT_EQ(back_after(0, 0).regain, 0);
+    EXPECT_FALSE(back_after(20, 300).regain);
+    course.scenario.regained.clear();
+    EXPECT_FALSE(back_after(0, 0).regain) << "nothing is to be regained";
+}
+
+TEST(Metrics, IsStuckWhereTheEndIsMostlySlowOrHalfAsFine) {
+    const Course course = plain_course(1000);
+    const auto stuck = [&](double slow_share, double detail_share) {
+        return measured(course,
+                        [=](std::int64_t frame, Outcome& o) {
+                            if (frame < 400) return take(o, 20);  // long ago
+                            o.detail = detail_share * best_detail;
+                            if (static_cast<double>(frame - 400) < slow_share * 600) take(o, 10.6);
+                        })
+            .is_stuck;
+    };
+    EXPECT_EQ(stuck(0.49, 1), 0);
+    EXPECT_EQ(stuck(0.51, 1), 1);
+    EXPECT_EQ(stuck(0, 0.51), 0);
+    EXPECT_EQ(stuck(0, 0.49), 1);
+}
+
+TEST(Metrics, UnderACapTimesAreComparedWithTheCap) {
+    Course course = plain_course(100);
+    course.scenario.cap_ms = 12;
+    const auto over = [&](double ms) {
+        return measured(course, [=](std::int64_t, Outcome& o) { take(o, ms); }).over_5pct;
+    };
+    EXPECT_EQ(over(12), 0);
+    EXPECT_EQ(over(12.7), 1);
+    course.scenario.cap_ms = 8;
+    EXPECT_EQ(over(10), 0);
+    EXPECT_EQ(over(10.6), 1);
+}
+
+TEST(Metrics, StepsAreInOctavesOfTheSplatSizeThatIsSeen) {
+    const Course course = plain_course(100);
+    const auto step = [&](const Decision& before, const Decision& after) {
+        return measured(course, [&](std::int64_t frame, Outcome& o) { o.decision = frame < 50 ? before : after; })
+            .largest_step;
+    };
+    EXPECT_DOUBLE_EQ(step({State::points, 100, 1}, {State::points, 100, 4}), 2);
+    EXPECT_DOUBLE_EQ(step({State::points, 100, 4}, {State::points, 100, 1}), 2);
+    EXPECT_DOUBLE_EQ(step({}, {State::points, 100, 1}), 1) << "meshes look like the finest splats";
+    EXPECT_DOUBLE_EQ(step({}, {State::points, 100, 0.3}), 0) << "nobody sees so little";
+    EXPECT_DOUBLE_EQ(step({State::points, 100, 2}, {State::points, 50, 2}), 0);
+}
+
+TEST(Metrics, AStepThatTheTargetAskedForIsNone) {
+    Course course = plain_course(100);
+    const Metrics m = measured(course, [&](std::int64_t frame, Outcome& o) {
+        o.target_ms = frame < 50 ? 20 : 10;
+        o.decision = {State::points, 100, frame < 50 ? 1.0 : 3.0};
+    });
+    EXPECT_NEAR(m.largest_step, std::log2(3.0) - 1, 1e-12);
+}
+
+TEST(Metrics, TheFirstTenFramesAreComparedWithTargetAndRest) {
+    const Metrics m = measured(plain_course(100), [](std::int64_t frame, Outcome& o) {
+        take(o, frame == 3 ? 25 : frame == 12 ? 99 : 10);
+        o.decision = {State::points, 100, frame == 5 ? 6.0 : 2.0};
+    });
+    EXPECT_DOUBLE_EQ(m.first_over, 2.5);
+    EXPECT_DOUBLE_EQ(m.first_coarse, 3);
+    EXPECT_NEAR(m.mean_ms, (98 * 10 + 25 + 99) / 100.0, 1e-9);
 }
 
 }  // namespace

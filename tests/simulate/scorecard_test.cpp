@@ -115,7 +115,7 @@ TEST(Scorecard, MediansAreOfTheFiguresOfAllSeeds) {
     }
     std::sort(over.begin(), over.end());
     EXPECT_DOUBLE_EQ(row.median.over_5pct, (over[1] + over[2]) / 2);
-    EXPECT_DOUBLE_EQ(row.worst_over_5pct, over[3]);
+    EXPECT_DOUBLE_EQ(row.worst.over_5pct, over[3]);
     EXPECT_DOUBLE_EQ(row.oracle_over_5pct, row.median.over_5pct);
 }
 
@@ -180,6 +180,61 @@ TEST(ScorecardTable, LinesOfATableAreEquallyLong) {
         EXPECT_EQ(line.size(), width) << line;
     }
     EXPECT_EQ(tables, 2u);
+}
+
+TEST(Scorecard, TheWorstSeedIsOfEachFigureByItself) {
+    ScorecardOptions options;
+    Scenario scenario = make_scenario("toy");
+    scenario.regained = {{1800, 2700}};
+    options.scenarios = {scenario};
+    options.laws = {filament};
+    options.reference = filament;
+    options.seeds = 5;
+    const Row row = scorecard(options).front();
+    const Course course = make_course(scenario);
+    double quality = 2, turns = 0;
+    std::optional<double> regain = 0;
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        std::vector<Outcome> outcomes;
+        run(course, *make_rival("filament"), {.seed = seed, .target_factor = 1, .now_us = {}}, outcomes);
+        const Metrics m = measure(course, outcomes);
+        quality = std::min(quality, m.quality);
+        turns = std::max(turns, m.reversals_per_1000);
+        regain = regain && m.regain ? std::max(regain, m.regain) : std::nullopt;
+    }
+    EXPECT_DOUBLE_EQ(row.worst.quality, quality);
+    EXPECT_DOUBLE_EQ(row.worst.reversals_per_1000, turns);
+    EXPECT_EQ(row.worst.regain, regain);
+    EXPECT_LT(row.worst.quality, row.median.quality);
+}
+
+TEST(Scorecard, MissesThatNoFactorGivesAreMarked) {
+    ScorecardOptions options;
+    options.scenarios = {noisy()};
+    // Draws everything, whatever it is asked for.
+    const Contestant deaf{"deaf", [](const Course&) -> Made {
+                              class Deaf final : public Controller {
+                              public:
+                                  void observe(const FrameSample&) override {}
+                                  Decision decide(const FrameRequest&) override { return {}; }
+                                  const Status& status() const override { return status_; }
+
+                              private:
+                                  Status status_;
+                              };
+                              return std::make_unique<Deaf>();
+                          }};
+    options.laws = {deaf, constant};
+    options.reference = oracle;
+    options.seeds = 3;
+    const std::vector<Row> rows = scorecard(options);
+    ASSERT_EQ(rows.size(), 4u);
+    EXPECT_TRUE(rows[0].is_equal) << "at its own tuning nothing was asked";
+    EXPECT_FALSE(rows[1].is_equal);
+    EXPECT_TRUE(rows[3].is_equal);
+    std::ostringstream text;
+    write_scorecard_table(text, options, rows);
+    EXPECT_NE(text.str().find("not equal"), std::string::npos);
 }
 
 }  // namespace
