@@ -5,6 +5,8 @@
 
 #include "apps/program.h"
 #include "sfsm/controller.h"
+#include "sfsm/detail.h"
+#include "sfsm/rivals/offline_table.h"
 #include "sfsm/rivals/rivals.h"
 #include "sfsm/simulate/oracle.h"
 
@@ -13,6 +15,13 @@ namespace {
 
 namespace sim = sfsm::simulate;
 using Controllers = std::unique_ptr<sfsm::Controller>;
+
+// Its table is of the first frame, which is all that can be measured before a run.
+Controllers make_offline_table(const sim::Course& course) {
+    const sim::Plant& plant = *course.scenario.plant;
+    return sfsm::make_offline_table(
+        [&](double detail) { return plant.cost_ms(0, sfsm::decision_at(detail, plant.range(0))); });
+}
 
 std::vector<sim::Contestant> contestants() {
     std::vector<sim::Contestant> laws;
@@ -27,6 +36,7 @@ std::vector<sim::Contestant> contestants() {
     for (const std::string_view name : sfsm::rival_names()) {
         laws.push_back({std::string(name), [=](const sim::Course&) { return sfsm::make_rival(name); }});
     }
+    laws.push_back({std::string(sfsm::offline_table_name), make_offline_table});
     return laws;
 }
 
@@ -51,8 +61,8 @@ std::optional<sim::Contestant> find_law(const std::string& name) {
     return std::nullopt;
 }
 
-bool looks_ahead(const sim::Contestant& law) {
-    return law.name == sim::oracle_name;
+bool needs_course(const sim::Contestant& law) {
+    return law.name == sim::oracle_name || law.name == sfsm::offline_table_name;
 }
 
 std::string law_list() {

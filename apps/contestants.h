@@ -16,8 +16,8 @@ std::vector<sfsm::simulate::Contestant> chosen_laws(const std::string& option, c
 // The one of that name, if there is one.
 std::optional<sfsm::simulate::Contestant> find_law(const std::string& name);
 
-// Whether it decides by what is still to come: it needs a course, and can't decide in an open loop.
-bool looks_ahead(const sfsm::simulate::Contestant& law);
+// Whether it has seen what the renderer costs, before the run or ahead of it: it can't decide in an open loop.
+bool needs_course(const sfsm::simulate::Contestant& law);
 
 std::string law_list();  // of all, blanks between
 

@@ -69,7 +69,7 @@ void check(ReplayOptions& options) {
         throw wrong_argument("--csv", std::to_string(laws.size()) + " laws", "one law with it");
     if (!options.open_loop || options.laws == "all") return;  // all that can
     for (const sfsm::simulate::Contestant& law : laws) {
-        if (looks_ahead(law))
+        if (needs_course(law))
             throw wrong_argument("--law", law.name, "a law that decides without knowing costs, in an open loop");
     }
 }

@@ -73,7 +73,7 @@ std::vector<sim::Contestant> laws_for(const ReplayOptions& options, const sfsm::
     if (options.laws.empty() && is_told) return {law_of(recording.trace, !options.open_loop)};
     std::vector<sim::Contestant> laws =
         chosen_laws("--law", options.laws.empty() ? std::string(sfsm::law_names().front()) : options.laws);
-    if (options.open_loop) std::erase_if(laws, looks_ahead);
+    if (options.open_loop) std::erase_if(laws, needs_course);
     return laws;
 }
 
@@ -103,15 +103,15 @@ sfsm::Trace read_own_trace(const std::string& path) {
     return std::move(recording.trace);
 }
 
-sim::Contestant law_of(const sfsm::Trace& trace, bool may_look_ahead) {
+sim::Contestant law_of(const sfsm::Trace& trace, bool may_need_course) {
     const std::string& name = trace.settings.at("law");
     const std::optional<sim::Contestant> law = find_law(name);
     if (!law)
         throw std::runtime_error(trace.name + ": found setting law=" + sfsm::shown(name) +
                                  ", expected one of: " + law_list());
-    if (!may_look_ahead && looks_ahead(*law))
+    if (!may_need_course && needs_course(*law))
         throw std::runtime_error(trace.name + ": found setting law=" + sfsm::shown(name) +
-                                 ", which knows what is to come, expected one that decides without");
+                                 ", which knows what frames cost, expected one that decides without");
     return *law;
 }
 

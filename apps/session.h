@@ -31,8 +31,8 @@ Session open_session(const ReplayOptions& options);
 sfsm::Trace read_own_trace(const std::string& path);
 
 // The law that a trace says has decided, or throws std::runtime_error that names the trace: it says none that there is,
-// or one that looks ahead where it must not.
-sfsm::simulate::Contestant law_of(const sfsm::Trace& trace, bool may_look_ahead);
+// or one that needs a course where there is none.
+sfsm::simulate::Contestant law_of(const sfsm::Trace& trace, bool may_need_course);
 
 // What is made of a file's rows, by functions that don't know whose they are: their errors begin with its path.
 template <class Make>

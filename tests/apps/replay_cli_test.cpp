@@ -281,7 +281,7 @@ TEST_F(ReplayProgram, TheClairvoyantDecidesInClosedLoopsAlone) {
     for (const std::string option : {" --verify", " --open-loop"}) {
         const Outcome outcome = replay(in_folder("oracle.csv") + option);
         EXPECT_EQ(outcome.code, 1);
-        EXPECT_NE(outcome.err.find("oracle.csv: found setting law='oracle', which knows what is to come"),
+        EXPECT_NE(outcome.err.find("oracle.csv: found setting law='oracle', which knows what frames cost"),
                   std::string::npos)
             << outcome.err;
     }

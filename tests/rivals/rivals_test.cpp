@@ -7,8 +7,10 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "sfsm/detail.h"
+#include "sfsm/rivals/offline_table.h"
 
 namespace sfsm {
 namespace {
@@ -19,7 +21,10 @@ constexpr double exact = 1e-12;  // of details that go through a decision and ba
 
 // A rival that sees each time before the next decision.
 struct Driven {
-    explicit Driven(std::string_view name) : law(make_rival(name)) { decision = law->decide({target, range}); }
+    explicit Driven(std::string_view name) : Driven(make_rival(name)) {}
+    explicit Driven(std::unique_ptr<Controller> made) : law(std::move(made)) {
+        decision = law->decide({target, range});
+    }
 
     std::unique_ptr<Controller> law;
     Decision decision;
@@ -265,6 +270,33 @@ TEST(Rivals, ATimeOfNoSoundDecisionIsOfThePresentDetail) {
         }
         EXPECT_NEAR(odd.detail(), sound.detail(), exact) << name;
     }
+}
+
+TEST(OfflineTable, TakesTheFinestStepThatFitsTimesTheGain) {
+    Driven table(make_offline_table([](double detail) { return target * detail; }));
+    const double step = 0.95 / offline_steps;
+    EXPECT_NEAR(table.after(1, 1), 1, exact) << "as the table says";
+    const double gain = std::pow(2, 0.125);  // an eighth of a time twice as long, by logarithms
+    const double fits = table.after(1, 2);
+    EXPECT_LE(fits, 1 / gain);
+    EXPECT_GT(fits, 1 / gain - step);
+}
+
+TEST(OfflineTable, MeasuresEachStepOnceAndThenNoMore) {
+    int measured = 0;
+    Driven table(make_offline_table([&](double detail) {
+        ++measured;
+        EXPECT_GE(detail, 0.05);
+        EXPECT_LE(detail, 1);
+        return 1 + detail;
+    }));
+    table.after(100, 1.3);
+    EXPECT_EQ(measured, offline_steps + 1);
+}
+
+TEST(OfflineTable, GivesAllDetailAwayForATimeThatNoStepMeets) {
+    Driven table(make_offline_table([](double) { return target; }));
+    EXPECT_NEAR(table.after(200, 3), 0.05, exact);
 }
 
 }  // namespace
