@@ -1,6 +1,7 @@
 #include "apps/simulate.h"
 
 #include <chrono>
+#include <iomanip>
 #include <iostream>
 #include <limits>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "apps/progress.h"
 #include "apps/rerun.h"
 #include "sfsm/controller.h"
+#include "sfsm/simulate/endurance.h"
 #include "sfsm/simulate/scorecard.h"
 #include "sfsm/simulate/scorecard_text.h"
 #include "sfsm/trace.h"
@@ -23,6 +25,8 @@ namespace sim = sfsm::simulate;
 
 constexpr const char* all = "all";
 constexpr int most_seeds = 1000;
+constexpr int most_frames = 1'000'000'000;
+constexpr int stretches = 20;
 
 std::vector<sim::Scenario> chosen_scenarios(const std::string& name) {
     std::vector<sim::Scenario> scenarios;
@@ -76,6 +80,25 @@ std::vector<sim::Row> scorecard(sim::ScorecardOptions& card) {
     return sim::scorecard(card);
 }
 
+// The scenario over and over with the first seed.
+void print_long_run(std::ostream& out, const sim::Course& course, const sim::Contestant& law, int frames) {
+    out << course.scenario.name << ", " << law.name << ":\n   to frame    gain  over %  quality\n";
+    for (const sim::Stretch& stretch : sim::endure(course, *law.make(course), 1, frames, stretches)) {
+        out << std::setw(11) << stretch.end << std::fixed << std::setprecision(3) << std::setw(8) << stretch.gain
+            << std::setprecision(2) << std::setw(8) << 100 * stretch.over_5pct << std::setprecision(3) << std::setw(9)
+            << stretch.quality << '\n';
+    }
+}
+
+void print_long_runs(const sim::ScorecardOptions& card, int frames) {
+    OutputFile table("-");
+    for (const sim::Scenario& scenario : card.scenarios) {
+        const sim::Course course = sim::make_course(scenario);
+        for (const sim::Contestant& law : card.laws) print_long_run(table.stream(), course, law, frames);
+    }
+    table.commit();
+}
+
 }  // namespace
 
 CLI::Option* add_simulate_options(CLI::App& app, SimulateOptions& options) {
@@ -87,12 +110,18 @@ CLI::Option* add_simulate_options(CLI::App& app, SimulateOptions& options) {
         ->needs(simulate)
         ->check(whole_number(1, most_seeds))
         ->capture_default_str();
+    app.add_option("--frames", options.frames,
+                   "No scorecard, but one run of so many frames, the scenario over and over")
+        ->needs(simulate)
+        ->check(whole_number(1, most_frames));
     return simulate;
 }
 
 void check(const SimulateOptions& options) {
     const std::size_t scenarios = chosen_scenarios(options.scenario).size();
     const std::size_t laws = chosen_laws("--laws", options.laws).size();
+    if (options.frames > 0 && !(options.csv.empty() && options.json.empty()))
+        throw wrong_argument("--frames", "--csv or --json with it", "neither: a long run is only printed");
     if (options.csv.empty()) return;
     if (scenarios != 1 || laws != 1) {
         throw wrong_argument("--csv", std::to_string(scenarios * laws) + " runs", "one scenario and one law with it");
@@ -104,6 +133,7 @@ void check(const SimulateOptions& options) {
 
 void simulate(const SimulateOptions& options) {
     sim::ScorecardOptions card = scorecard_options(options);
+    if (options.frames > 0) return print_long_runs(card, options.frames);
     // All are opened before any is written: a place that cannot be written leaves none.
     std::optional<OutputFile> csv, json;
     if (!options.csv.empty()) csv.emplace(options.csv);

@@ -32,7 +32,7 @@ TEST(Simulate, JsonOnStandardOutputComesWithoutTheTable) {
 
 TEST(Simulate, AllLawsTakePart) {
     const Outcome outcome = run("replay", "--simulate quiet --laws all --seeds 1");
-    for (const char* law : {"oracle", "predictive", "paper", "filament", "robust-mpc"}) {
+    for (const char* law : {"oracle", "predictive", "paper", "filament", "robust-mpc", "offline-table"}) {
         EXPECT_NE(outcome.out.find("\n" + std::string(law) + " "), std::string::npos) << law;
     }
 }
@@ -51,6 +51,15 @@ TEST(Simulate, ItsTraceIsReproducedToTheBit) {
     }
 }
 
+TEST(Simulate, ALongRunIsPrintedInStretches) {
+    const Outcome outcome = run("replay", "--simulate quiet --laws paper,predictive --frames 40000");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_TRUE(outcome.out.starts_with("quiet, paper:\n")) << outcome.out;
+    EXPECT_NE(outcome.out.find("quiet, predictive:\n"), std::string::npos);
+    EXPECT_NE(outcome.out.find("\n       2000 "), std::string::npos) << "twenty of them";
+    EXPECT_NE(outcome.out.find("\n      40000 "), std::string::npos);
+}
+
 TEST(Simulate, UsageErrorsAreOneLineAndCode2) {
     const std::pair<const char*, const char*> bads[] = {
         {"--simulate bogus", "paper-1"},
@@ -60,6 +69,9 @@ TEST(Simulate, UsageErrorsAreOneLineAndCode2) {
         {"--simulate toy trace.csv", "TRACE"},
         {"--simulate toy --law paper", "--law"},
         {"--simulate toy --verify", "--verify"},
+        {"--simulate toy --frames 0", "--frames"},
+        {"--simulate toy --laws paper --frames 9 --json out.json", "--frames"},
+        {"--frames 9", "--simulate"},
         {"--simulate toy --csv run.csv", "one scenario and one law"},
         {"--simulate all --laws paper --csv run.csv", "one scenario and one law"},
         {"--simulate toy --laws paper --csv - --json -", "at most one"},
