@@ -42,10 +42,10 @@ double correlated_normal_at(std::uint64_t seed, std::int64_t frame, Stream strea
     if (correlation <= 0) return normal_at(seed, frame, stream);
     double sum = 0, weight = 1, squares = 0;
     for (; weight > least_weight; weight *= correlation, --frame) {
-        sum += weight * normal_at(seed, frame, stream);
+        sum += weight * (uniform_at(seed, frame, stream) - 0.5);
         squares += weight * weight;
     }
-    return sum / std::sqrt(squares);
+    return sum * std::sqrt(12 / squares);
 }
 
 }  // namespace sfsm::simulate

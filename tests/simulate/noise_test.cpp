@@ -87,6 +87,14 @@ TEST(Noise, CorrelatedNoiseRemembersAsMuchAsStated) {
     EXPECT_NEAR(tenth / squares, std::pow(correlation, 10), 0.1);
 }
 
+// Beyond two deviations a normal one is 4.6 % of the time.
+TEST(Noise, CorrelatedNoiseIsNearlyNormal) {
+    double over = 0;
+    for (std::int64_t frame = 0; frame < samples; ++frame)
+        over += std::abs(correlated_normal_at(2, frame, Stream::noise, 0.9)) > 2 ? 1 : 0;
+    EXPECT_NEAR(over / samples, std::erfc(std::sqrt(2.0)), 0.01);
+}
+
 TEST(Noise, WithoutCorrelationItIsTheNormal) {
     EXPECT_EQ(correlated_normal_at(3, 7, Stream::noise, 0), normal_at(3, 7, Stream::noise));
 }
