@@ -18,8 +18,9 @@ double normal_at(std::uint64_t seed, std::int64_t frame, Stream stream);
 // Student's t of 3 degrees of freedom, over its deviation: one in 72 is beyond 3.
 double heavy_tailed_at(std::uint64_t seed, std::int64_t frame, Stream stream);
 
-// Correlated from frame to frame, of deviation 1: AR(1) with `correlation` in [0, 1). 0: normal. Else a sum of uniforms,
-// as near to normal as it is long; what is older than a thousandth of its weight is left out. Cost: 66 uniforms at 0.9.
+// Correlated from frame to frame, of deviation 1: AR(1) with `correlation` in [0, 1). 0: normal. Else a sum of
+// uniforms, as near to normal as it is long; what is older than a thousandth of its weight is left out. Cost: 66
+// uniforms at 0.9.
 double correlated_normal_at(std::uint64_t seed, std::int64_t frame, Stream stream, double correlation);
 
 }  // namespace sfsm::simulate

@@ -63,6 +63,24 @@ TEST(DefaultLaw, IsBackAfterEveryInterruption) {
     }
 }
 
+TEST(DefaultLaw, TakesWaitingForACapForNoLoad) {
+    for (const char* scenario : {"frame-cap-2", "frame-cap-5", "frame-cap-10"}) {
+        const Row row = row_of(scenario);
+        ASSERT_TRUE(row.worst.regain) << scenario;
+        EXPECT_LE(*row.worst.regain, 120) << scenario;
+    }
+}
+
+TEST(DefaultLaw, KeepsItsDetailUnderHeavyTailsInEverySeed) {
+    EXPECT_GE(row_of("heavy-tail-knob").worst.quality, 0.97);
+}
+
+TEST(DefaultLaw, HoldsAHiddenCostThatMoves) {
+    const Row row = row_of("hidden-cost");
+    EXPECT_GE(row.median.quality, 0.95);
+    EXPECT_LE(row.median.over_5pct, 0.08);
+}
+
 TEST(DefaultLaw, HoldsThePapersTargetsBetterThanThePaper) {
     EXPECT_GE(row_of("paper-1").median.control_rate, 0.99);
     EXPECT_GE(row_of("paper-2").median.control_rate, 0.99);
