@@ -73,7 +73,7 @@ give the same bytes.
 void add_options(CLI::App& app, Options& options) {
     apps::describe(app, examples);
     app.add_option("IN", options.input,
-                   "Character or mesh: .glb, .gltf, .obj, .ply, .stl or .off; the last four also as .gz")
+                   "Character or mesh: .glb, .gltf, .vrm, .obj, .ply, .stl or .off; the last four also as .gz")
         ->required();
     app.add_option("--points", options.points, "How many points, exactly")
         ->required()

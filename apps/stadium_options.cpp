@@ -113,7 +113,8 @@ void add_character_options(CLI::App& app, StadiumOptions& options) {
     };
     app.add_option_function<std::vector<std::string>>(
            "--character", [add_files](const std::vector<std::string>& files) { add_files("--character", files); },
-           "glTF, GLB, OBJ or PLY file to fill the stadium with; several mix, FILE:3 three times as often as FILE:1")
+           "File to fill the stadium with: .glb, .gltf, .vrm, .obj, .ply, .stl or .off, the last four also as .gz; "
+           "several mix, FILE:3 three times as often as FILE:1")
         ->trigger_on_parse();
     app.add_option_function<std::string>(
            "--turn", [&](const std::string& text) { turn_last(options, text); },
