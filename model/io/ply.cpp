@@ -345,12 +345,12 @@ PolygonMesh::Looks looks_of(const Header& header, const std::vector<std::uint8_t
 template <typename Source>
 class Body {
 public:
-    Body(Source source, const Header& header, std::vector<std::uint8_t> textures, bool counts_are_sound,
+    Body(Source source, const Header& header, std::vector<std::uint8_t> textures, std::uint64_t room,
          Warnings& warnings)
         : source_(std::move(source)),
           header_(header),
           textures_(std::move(textures)),
-          may_reserve_(counts_are_sound),
+          room_(room),
           warnings_(warnings),
           mesh_(looks_of(header, textures_)) {
         if (const Element* vertices = header.find("vertex")) vertex_count_ = vertices->count;
@@ -367,6 +367,7 @@ private:
     void read_element(const Element& element) {
         if (element.properties.empty()) return;  // nothing is in the file, whatever the count says
         if (element.name == "vertex") prepare(element);
+        if (element.name == "face") mesh_.reserve_corners(std::min(3 * element.count, room_ / sizeof(std::uint32_t)));
         std::uint64_t index = 0;
         try {
             for (; index < element.count; ++index) {
@@ -386,7 +387,7 @@ private:
         has_normals_ = element.has(nx, nz);
         has_colors_ = element.has(red, blue);
         has_uvs_ = element.has(u, v) && mesh_.texture != no_texture;
-        if (!may_reserve_) return;
+        if (room_ == 0) return;
         const std::size_t count = static_cast<std::size_t>(element.count);
         mesh_.positions.reserve(count);
         if (has_normals_) mesh_.normals.reserve(count);
@@ -526,7 +527,7 @@ private:
     Source source_;
     const Header& header_;
     std::vector<std::uint8_t> textures_;
-    bool may_reserve_;
+    std::uint64_t room_;  // [bytes] that may be reserved: the file's, if its counts are checked
     Warnings& warnings_;
     std::uint64_t vertex_count_ = 0;
     bool has_normals_ = false, has_colors_ = false, has_uvs_ = false;
@@ -558,7 +559,8 @@ Mesh read_ply(const std::filesystem::path& path, Warnings& warnings) {
     check_counts(header, file.left());
     MeshTextures textures(path.parent_path(), warnings);
     const auto read = [&](auto source) {
-        return Body(std::move(source), header, textures_of(header, textures, warnings), !file.packed(), warnings)
+        return Body(std::move(source), header, textures_of(header, textures, warnings), file.packed() ? 0 : file.left(),
+                    warnings)
             .read();
     };
     Mesh mesh = header.format == Format::ascii ? read(TextSource(file)) : read(BinarySource(file, header.format));

@@ -39,6 +39,8 @@ public:
         std::uint8_t texture = no_texture;       // that these uvs are of
     };
 
+    void reserve_corners(std::size_t of_triangles) { indices_.reserve(of_triangles); }
+
     // Any number of corners; fewer than three are no face. Throws std::runtime_error if a corner is at no finite place.
     void add_face(const Face& face);
 
