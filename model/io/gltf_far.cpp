@@ -38,7 +38,6 @@ struct ExactPose {
     }
 };
 
-constexpr double far_away = 128;  // [sizes of the shape] nearer ones, which most scenes are, lose 1e-5 of it at most
 constexpr double largest = 1e30;  // far below what a float holds
 
 struct Box {
@@ -163,9 +162,8 @@ void move_near(const GltfFile& file, const NodeOrder& nodes, Character& characte
     const ExactPose pose(file, nodes, character.skeleton);
     const Box box = box_of(character, pose);
     const glm::dvec3 origin = origin_for(box.least, box.most);
-    const double size = glm::distance(box.least, box.most), away = glm::length(origin);
-    if (!(away > far_away * size && away < largest)) return;
-    Mover(pose, origin, size, character).move();
+    if (origin == glm::dvec3(0.0) || !(glm::length(origin) < largest)) return;
+    Mover(pose, origin, glm::distance(box.least, box.most), character).move();
 }
 
 }  // namespace model

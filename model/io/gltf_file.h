@@ -92,12 +92,14 @@ NodeOrder build_nodes(const GltfFile& file, Skeleton& skeleton);
 // All meshes of the scene, and the palette that their vertices index.
 void build_mesh(GltfFile& file, const NodeOrder& nodes, Character& character);
 
+inline constexpr const char* moves_nothing = "channel of a clip that moves no bone or morph, left out";
+
 // Clips and channels that can't be played are left out, and said.
 void build_clips(GltfFile& file, const NodeOrder& nodes, Character& character);
 
-// Gives a character that rests more than 128 times its size from the file's zero an origin of its own (origin.h), and
-// takes it out of its nodes, keys and vertices; others are left as they are. A node that clips turn about a far place
-// stays as exact as floats are there, and so does a skin whose vertices are far in bind space.
+// Gives a character that rests away from the file's zero an origin of its own (origin.h), and takes it out of its
+// nodes, keys and vertices; one that floats are exact enough for is left as it is. A node that clips turn about a far
+// place stays as exact as floats are there, and so does a skin whose vertices are far in bind space.
 void move_near(const GltfFile& file, const NodeOrder& nodes, Character& character);
 
 // Textures as materials name them, each image decoded once. What can't be had is said.
@@ -108,6 +110,8 @@ public:
     // The id of the file's texture `texture`, or no_texture if it names none that can be had.
     std::uint8_t id_of(int texture);
     Sampler sampler_of(int texture) const;  // glTF's default if it names none
+    // The texture `id` resampled (uv_map.h); no_texture if there are too many.
+    std::uint8_t resampled_id(std::uint8_t id, const Sampler& sampler, const glm::mat3& map);
 
     std::vector<Texture> take() { return textures_.take(); }
 
@@ -118,6 +122,13 @@ private:
     Warnings& warnings_;
     MeshTextures textures_;
     std::map<int, std::uint8_t> id_of_image_;
+    struct Resampled {
+        std::uint8_t from, id;
+        Sampler sampler;
+        glm::mat3 map;
+    };
+    std::vector<Resampled> resampled_;
+    std::size_t resampled_texels_ = 0;
 };
 
 }  // namespace model

@@ -12,7 +12,7 @@ glm::dvec3 origin_for(const glm::dvec3& least, const glm::dvec3& most) {
     const double size = glm::length(most - least);
     double farthest = 0;
     for (int axis = 0; axis < 3; ++axis) farthest = std::max({farthest, std::abs(least[axis]), std::abs(most[axis])});
-    if (!std::isnormal(size) || !std::isfinite(farthest) || farthest <= 2 * size) return glm::dvec3(0.0);
+    if (!std::isnormal(size) || !std::isfinite(farthest) || farthest <= size) return glm::dvec3(0.0);
     const double step = std::exp2(std::floor(std::log2(size)));
     return glm::round((least + (most - least) / 2.0) / step) * step;
 }

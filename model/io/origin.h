@@ -11,8 +11,8 @@
 
 namespace model {
 
-// Of a mesh in the box of these finite corners. Zero unless the box is farther from there than it is twice as large, so
-// that what floats hold to 1e-7 of its size is left as it is; else about its middle, in round binary numbers.
+// Of a mesh in the box of these finite corners. Zero if no coordinate is larger than the box's diagonal, as floats hold
+// those to 1e-7 of it, and whoever stands on zero is left as they are; else about its middle, in round binary numbers.
 glm::dvec3 origin_for(const glm::dvec3& least, const glm::dvec3& most);
 
 [[noreturn]] void refuse_vertex(std::uint64_t vertex);

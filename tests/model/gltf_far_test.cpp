@@ -31,15 +31,15 @@ std::vector<glm::vec3> posed(const model::Character& character, double time = -1
 }
 
 // `far` is `near`, moved by `place`.
-void expect_moved(const model::Character& near, const model::Character& far, const glm::dvec3& place,
-                  double time = -1) {
+void expect_moved(const model::Character& near, const model::Character& far, const glm::dvec3& place, double time = -1,
+                  double tolerance = 1e-6) {  // of a shape of about 1
     const std::vector<glm::vec3> here = posed(near, time), there = posed(far, time);
     ASSERT_EQ(near.mesh.origin, glm::dvec3(0.0));
     ASSERT_NE(far.mesh.origin, glm::dvec3(0.0));
     ASSERT_EQ(here.size(), there.size());
     for (std::size_t v = 0; v < here.size(); ++v) {
         const glm::dvec3 found = far.mesh.origin - place + glm::dvec3(there[v]);
-        ASSERT_LT(glm::distance(found, glm::dvec3(here[v])), 1e-6) << v;  // of a shape of about 1
+        ASSERT_LT(glm::distance(found, glm::dvec3(here[v])), tolerance) << v;
     }
 }
 
@@ -47,6 +47,22 @@ TEST(GltfFar, ARigidPartStandsToItsMicrometres) {
     GltfBuilder near = tests::make_square(), far = tests::make_square();
     far.node(0)["translation"] = list_of(far_place);
     expect_moved(load(near), load(far), far_place);
+}
+
+// A table or a room away, as parts of scenes are.
+TEST(GltfFar, AFewSizesAwayAreExactToo) {
+    for (const double away : {1.6, 3.3, 17.7, 101.9}) {
+        GltfBuilder near = tests::make_square(), far = tests::make_square();
+        near.node(0)["scale"] = far.node(0)["scale"] = {1, 0.7, 1};
+        far.node(0)["translation"] = {away, away / 3, -away / 7};
+        expect_moved(load(near), load(far), {away, away / 3, -away / 7}, -1, 1.5e-7);
+    }
+}
+
+TEST(GltfFar, WhoStandsOnZeroKeepsItAsTheirOrigin) {
+    GltfBuilder standing = tests::make_square();
+    standing.node(0) = {{"mesh", 0}, {"scale", {0.3, 1.8, 1}}, {"translation", {-0.15, 0, 0}}};
+    EXPECT_EQ(load(standing).mesh.origin, glm::dvec3(0.0));
 }
 
 TEST(GltfFar, SmallPlacesUnderFarParentsAreKept) {

@@ -216,6 +216,8 @@ std::vector<Triangle> triangles_of(const model::Character& character) {
     motion::skin(character.mesh, pose, posed[0], posed[1]);
     motion::evaluate(character, character.clips[0], halfway, pose);
     motion::skin(character.mesh, pose, posed[2], posed[3]);
+    for (const std::size_t positions : {0, 2})
+        for (glm::vec3& position : posed[positions]) position += glm::vec3(character.mesh.origin);
     std::vector<Triangle> triangles;
     for (std::size_t i = 0; i < character.mesh.indices.size(); i += 3) {
         Triangle& triangle = triangles.emplace_back();
