@@ -62,12 +62,16 @@ Channel read_channel(GltfFile& file, const tinygltf::AnimationSampler& sampler, 
     return channel;
 }
 
-Clip read_clip(GltfFile& file, const tinygltf::Animation& animation, const NodeOrder& nodes) {
+Clip read_clip(GltfFile& file, const tinygltf::Animation& animation, const NodeOrder& nodes, Warnings& warnings) {
     Clip clip;
     clip.name = animation.name;
     for (const tinygltf::AnimationChannel& channel : animation.channels) {
         Path path;
-        if (!path_of(channel.target_path, path) || channel.target_node < 0) continue;
+        if (!path_of(channel.target_path, path)) {
+            warnings.add(moves_nothing, animation.name);
+            continue;
+        }
+        if (channel.target_node < 0) continue;
         if (static_cast<std::size_t>(channel.target_node) >= nodes.in_skeleton.size())
             fail("an animation of node " + std::to_string(channel.target_node), "one that exists");
         if (channel.sampler < 0 || static_cast<std::size_t>(channel.sampler) >= animation.samplers.size())
@@ -86,7 +90,7 @@ Clip read_clip(GltfFile& file, const tinygltf::Animation& animation, const NodeO
 void build_clips(GltfFile& file, const NodeOrder& nodes, Character& character) {
     for (const tinygltf::Animation& animation : file.model.animations) {
         try {
-            character.clips.push_back(read_clip(file, animation, nodes));
+            character.clips.push_back(read_clip(file, animation, nodes, character.warnings));
         } catch (const BudgetError&) {
             throw;
         } catch (const std::runtime_error&) {

@@ -7,12 +7,14 @@
 #include "model/input_file.h"
 #include "model/io/data_uri.h"
 #include "model/io/file_finder.h"
+#include "model/io/gltf_file.h"
 
 namespace model {
 namespace {
 
 using nlohmann::json;
 
+constexpr const char* draco_name = "KHR_draco_mesh_compression";
 constexpr std::uint64_t most_buffer_bytes = std::uint64_t{1} << 31;
 
 std::string string_at(const json& object, const char* key) {
@@ -26,44 +28,36 @@ int index_at(const json& object, const char* key) {
     return found != object.end() && found->is_number_integer() ? found->get<int>() : -1;
 }
 
-json taken(json& document, const char* key) {
-    const auto found = document.find(key);
-    if (found == document.end()) return json::array();
-    json list = std::move(*found);
-    document.erase(found);
-    if (!list.is_array()) fail(std::string(key) + " that are no list", "glTF 2.0");
-    for (const json& element : list)
-        if (!element.is_object()) fail("one of the " + std::string(key) + " that is no object", "glTF 2.0");
-    return list;
+bool is_list_of_objects(const json& value) {
+    return value.is_array() && std::ranges::all_of(value, [](const json& element) { return element.is_object(); });
 }
 
-// The list at `key`, where that is one of objects alone; else an empty one.
-json& objects_at(json& object, const char* key) {
-    static json none = json::array();
-    const auto found = object.find(key);
-    const bool good = found != object.end() && found->is_array() &&
-                      std::ranges::all_of(*found, [](const json& element) { return element.is_object(); });
-    return good ? *found : none;
+// Whether a name may be in it: those with escapes may be any.
+bool may_hold(std::string_view text, std::string_view name) {
+    return text.find(name) != std::string_view::npos || text.find("\\u") != std::string_view::npos;
 }
 
 // As those of KHR_animation_pointer, which change a material, say.
 bool moves_no_node(const json& channel) {
     if (!channel.is_object()) return false;
     const auto target = channel.find("target");
-    return target != channel.end() && target->is_object() && string_at(*target, "path") == "pointer";
+    return target != channel.end() && target->is_object() && !target->contains("node") &&
+           string_at(*target, "path") == "pointer";
 }
 
-void check_version(const json& document) {
-    if (!document.is_object()) fail("JSON that is no object", "glTF 2.0");
-    const auto asset = document.find("asset");
-    const bool described = asset != document.end() && asset->is_object();
-    const std::string version = described ? string_at(*asset, "version") : std::string();
-    // Version 1 could leave it out, and has lists by name.
-    const auto accessors = document.find("accessors");
-    if (version.starts_with("1.") || (version.empty() && accessors != document.end() && accessors->is_object()))
-        fail("glTF 1.0", "glTF 2.0");
-    if (version.empty()) fail("no version of the asset", "glTF 2.0");
-    if (!version.starts_with("2.")) fail("glTF " + in_quotes(version), "glTF 2.0");
+bool is_clip(const json& animation) {
+    const auto list = [&](const char* name) {
+        const auto found = animation.find(name);
+        return found != animation.end() && is_list_of_objects(*found) ? *found : json();
+    };
+    const json samplers = list("samplers"), channels = list("channels");
+    return samplers.is_array() && channels.is_array() &&
+           std::ranges::all_of(samplers,
+                               [](const json& s) { return index_at(s, "input") >= 0 && index_at(s, "output") >= 0; }) &&
+           std::ranges::all_of(channels, [](const json& c) {
+               return index_at(c, "sampler") >= 0 && c.contains("target") && c["target"].is_object() &&
+                      !string_at(c["target"], "path").empty();
+           });
 }
 
 std::vector<unsigned char> bytes_at(const std::string& uri, FileFinder& finder) {
@@ -76,47 +70,119 @@ std::vector<unsigned char> bytes_at(const std::string& uri, FileFinder& finder) 
 
 }  // namespace
 
-GltfDocument::GltfDocument(std::string_view text, Warnings& warnings) : document_(json::parse(text)) {
-    check_version(document_);
-    buffers_ = taken(document_, "buffers");
-    images_ = taken(document_, "images");
-    keep_plain_animations(warnings);
-    hide_packed_indices();
+GltfDocument::GltfDocument(std::string_view text, Warnings& warnings)
+    : text_(text), members_(members_of_json(text)), buffers_(json::array()), images_(json::array()) {
+    check_version();
+    for (const JsonMember& member : members_) {
+        if (member.name == "buffers") buffers_ = take_list(member);
+        if (member.name == "images") images_ = take_list(member);
+        if (member.name == "animations") keep_plain_animations(member, warnings);
+        if (member.name == "meshes") hide_packed_indices(member);
+    }
+}
+
+std::string_view GltfDocument::text_of(const JsonMember& member) const {
+    return text_.substr(member.begin, member.end - member.begin);
+}
+
+void GltfDocument::check_version() const {
+    if (members_.empty()) fail("JSON that is no object, or an empty one", "glTF 2.0");
+    std::string version;
+    bool by_name = false;  // version 1 could leave it out, and has lists by name
+    for (const JsonMember& member : members_) {
+        if (member.name == "accessors")
+            by_name = text_of(member).find_first_not_of(" \t\r\n") == text_of(member).find('{');
+        if (member.name != "asset") continue;
+        const json asset = json::parse(text_of(member));
+        version = asset.is_object() ? string_at(asset, "version") : std::string();
+    }
+    if (version.starts_with("1.") || (version.empty() && by_name)) fail("glTF 1.0", "glTF 2.0");
+    if (version.empty()) fail("no version of the asset", "glTF 2.0");
+    if (!version.starts_with("2.")) fail("glTF " + in_quotes(version), "glTF 2.0");
+}
+
+void GltfDocument::replace(const JsonMember& member, std::string text) {
+    const auto at = std::ranges::lower_bound(changes_, member.begin, {}, &Change::begin);
+    if (at != changes_.end() && at->begin == member.begin)
+        at->text = std::move(text);
+    else
+        changes_.insert(at, {member.begin, member.end, std::move(text)});
+}
+
+// tinygltf sees an empty list.
+json GltfDocument::take_list(const JsonMember& member) {
+    json list = json::parse(text_of(member));
+    if (!list.is_array()) fail(member.name + " that are no list", "glTF 2.0");
+    if (!is_list_of_objects(list)) fail("one of the " + member.name + " that is no object", "glTF 2.0");
+    replace(member, "[]");
+    return list;
 }
 
 // tinygltf copies a clip's extensions once for every sampler, and drops channels without a node in silence.
-void GltfDocument::keep_plain_animations(Warnings& warnings) {
-    const auto animations = document_.find("animations");
-    if (animations == document_.end() || !animations->is_array()) return;
-    for (json& animation : *animations) {
-        if (!animation.is_object()) continue;
+void GltfDocument::keep_plain_animations(const JsonMember& member, Warnings& warnings) {
+    if (!may_hold(text_of(member), "\"extensions\"") && !may_hold(text_of(member), "\"pointer\"")) return;
+    json animations = json::parse(text_of(member));
+    if (!is_list_of_objects(animations)) return;
+    for (json& animation : animations) {
         const std::string name = string_at(animation, "name");
         if (animation.erase("extensions") > 0) warnings.add("extension of a clip, left out", name);
         const auto channels = animation.find("channels");
         if (channels == animation.end() || !channels->is_array()) continue;
         for (const json& channel : *channels)
-            if (moves_no_node(channel)) warnings.add("channel of a clip that moves no bone or morph, left out", name);
+            if (moves_no_node(channel)) warnings.add(moves_nothing, name);
     }
+    replace(member, animations.dump());
+}
+
+bool GltfDocument::leave_out_bad_clips(Warnings& warnings) {
+    bool any = false;
+    for (const JsonMember& member : members_) {
+        if (member.name != "animations") continue;
+        json animations = json::parse(text_of(member)), good = json::array();
+        if (!is_list_of_objects(animations)) return false;
+        for (json& animation : animations) {
+            animation.erase("extensions");
+            if (is_clip(animation))
+                good.push_back(std::move(animation));
+            else
+                warnings.add("clip that lacks a part, left out", string_at(animation, "name"));
+        }
+        any |= good.size() < animations.size();
+        replace(member, good.dump());
+    }
+    return any;
 }
 
 // tinygltf refuses indices without a buffer view, which those that Draco holds have no need of.
-void GltfDocument::hide_packed_indices() {
-    for (json& mesh : objects_at(document_, "meshes")) {
-        for (json& primitive : objects_at(mesh, "primitives")) {
+void GltfDocument::hide_packed_indices(const JsonMember& member) {
+    if (!may_hold(text_of(member), draco_name)) return;
+    json meshes = json::parse(text_of(member));
+    if (!is_list_of_objects(meshes)) return;
+    for (json& mesh : meshes) {
+        const auto primitives = mesh.find("primitives");
+        if (primitives == mesh.end() || !is_list_of_objects(*primitives)) continue;
+        for (json& primitive : *primitives) {
             const auto extensions = primitive.find("extensions"), indices = primitive.find("indices");
             if (extensions == primitive.end() || !extensions->is_object() || indices == primitive.end()) continue;
-            const auto packed = extensions->find("KHR_draco_mesh_compression");
+            const auto packed = extensions->find(draco_name);
             if (packed == extensions->end() || !packed->is_object()) continue;
             (*packed)["indices"] = std::move(*indices);
             primitive.erase(indices);
         }
     }
+    replace(member, meshes.dump());
 }
 
-std::string GltfDocument::take_rest() {
-    std::string text = document_.dump();
-    document_ = nullptr;
-    return text;
+std::string GltfDocument::rest() const {
+    std::string rest;
+    std::size_t at = 0;
+    for (const Change& change : changes_) {
+        rest += text_.substr(at, change.begin - at);
+        rest += change.text;
+        at = change.end;
+    }
+    rest += text_.substr(at);
+    return rest;
 }
 
 std::vector<tinygltf::Buffer> GltfDocument::buffers(const std::filesystem::path& folder,

@@ -2,6 +2,7 @@
 #include <draco/compression/mesh/mesh_sequential_decoder.h>
 #include <draco/core/varint_decoding.h>
 
+#include <algorithm>
 #include <cstring>
 #include <memory>
 #include <type_traits>
@@ -184,7 +185,8 @@ Bounds bounds_of(const GltfFile& file, const tinygltf::Primitive& primitive, con
     return {indices == nullptr ? unknown : indices->count, positions == nullptr ? unknown : positions->count, limit};
 }
 
-void unpack(GltfFile& file, tinygltf::Primitive& primitive, const tinygltf::Value& extension, UnpackLimit& limit) {
+tinygltf::Primitive unpacked(GltfFile& file, tinygltf::Primitive primitive, const tinygltf::Value& extension,
+                             UnpackLimit& limit) {
     if (primitive.mode != TINYGLTF_MODE_TRIANGLES && primitive.mode != TINYGLTF_MODE_TRIANGLE_STRIP)
         fail("Draco's data in primitive mode " + std::to_string(primitive.mode), "triangles");
     const auto view = static_cast<int>(whole_number(extension, "bufferView", "a Draco primitive"));
@@ -198,15 +200,44 @@ void unpack(GltfFile& file, tinygltf::Primitive& primitive, const tinygltf::Valu
     }
     primitive.indices = add_indices(file, *mesh, limit);
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
+    return primitive;
+}
+
+// Whether all that a program without Draco would read has data.
+bool is_plain_too(const GltfFile& file, const tinygltf::Primitive& primitive, int indices) {
+    const auto has_data = [&](int index) {
+        const tinygltf::Accessor* accessor = accessor_at(file, index);
+        return accessor != nullptr && accessor->bufferView >= 0;
+    };
+    return (indices < 0 || has_data(indices)) &&
+           std::ranges::all_of(primitive.attributes, [&](const auto& attribute) { return has_data(attribute.second); });
+}
+
+void unpack(GltfFile& file, tinygltf::Primitive& primitive, const tinygltf::Value& extension, UnpackLimit& limit,
+            Warnings& warnings) {
+    try {
+        primitive = unpacked(file, primitive, extension, limit);
+    } catch (const BudgetError&) {
+        throw;
+    } catch (const std::runtime_error&) {
+        // Where GltfDocument put them.
+        const bool indexed = extension.Has("indices") && extension.Get("indices").IsInt();
+        const int indices = indexed ? extension.Get("indices").GetNumberAsInt() : -1;
+        if (!is_plain_too(file, primitive, indices)) throw;
+        primitive.indices = indices;
+        warnings.add("compressed data is damaged, its plain copy is read", "Draco's");
+    }
 }
 
 }  // namespace
 
-void unpack_draco(GltfFile& file, UnpackLimit& limit) {
+void unpack_draco(GltfFile& file, UnpackLimit& limit, Warnings& warnings) {
     for (tinygltf::Mesh& mesh : file.model.meshes) {
         for (tinygltf::Primitive& primitive : mesh.primitives) {
             const auto found = primitive.extensions.find(extension_name);
-            if (found != primitive.extensions.end()) unpack(file, primitive, found->second, limit);
+            if (found == primitive.extensions.end()) continue;
+            const tinygltf::Value extension = found->second;
+            unpack(file, primitive, extension, limit, warnings);
         }
     }
 }

@@ -83,6 +83,16 @@ void parse(const std::string& text, tinygltf::Model& model) {
     if (!good) fail("a damaged file (" + first_line(error) + ")", "glTF 2.0");
 }
 
+void parse_document(GltfDocument& document, tinygltf::Model& model, Warnings& warnings) {
+    try {
+        parse(document.rest(), model);
+    } catch (const std::runtime_error&) {
+        if (!document.leave_out_bad_clips(warnings)) throw;
+        model = {};
+        parse(document.rest(), model);
+    }
+}
+
 // Those that only add looks, lights or labels take nothing from the shape. The rest of what is listed is read.
 bool can_be_read(std::string_view extension) {
     static constexpr std::array<std::string_view, 16> known{"KHR_texture_transform",
@@ -132,15 +142,15 @@ GltfFile open_gltf(const fs::path& path, Warnings& warnings) {
         const std::string_view text(reinterpret_cast<const char*>(bytes.data()) + chunks.json.begin, chunks.json.size);
         check_gltf_json(text);
         GltfDocument document(text, warnings);
-        parse(document.take_rest(), file.model);
+        parse_document(document, file.model, warnings);
         check_extensions(file.model);
         keep_only(chunks.binary, bytes);
         file.model.buffers = document.buffers(file.folder, std::move(bytes));
         file.model.images = document.images();
     }
     UnpackLimit limit(bytes_of_buffers(file));
-    unpack_meshopt(file, limit);
-    unpack_draco(file, limit);
+    unpack_meshopt(file, limit, warnings);
+    unpack_draco(file, limit, warnings);
     file.budget = Budget(bytes_of_buffers(file));
     return file;
 }

@@ -97,20 +97,33 @@ std::vector<unsigned char> unpack(const PackedView& view, UnpackLimit& limit) {
     return out;
 }
 
+bool has_data(const GltfFile& file, const tinygltf::BufferView& view) {
+    if (view.buffer < 0 || static_cast<std::size_t>(view.buffer) >= file.model.buffers.size()) return false;
+    const std::size_t size = file.model.buffers[static_cast<std::size_t>(view.buffer)].data.size();
+    return view.byteOffset < size && view.byteLength <= size - view.byteOffset;
+}
+
 }  // namespace
 
-void unpack_meshopt(GltfFile& file, UnpackLimit& limit) {
+void unpack_meshopt(GltfFile& file, UnpackLimit& limit, Warnings& warnings) {
     const std::size_t count = file.model.bufferViews.size();
     for (std::size_t i = 0; i < count; ++i) {
-        const tinygltf::Value* extension = extension_of(file.model.bufferViews[i]);
-        if (extension == nullptr) continue;
-        const PackedView packed = read_packed(file, *extension, "compressed buffer view " + std::to_string(i));
-        std::vector<unsigned char> bytes = unpack(packed, limit);
         tinygltf::BufferView& view = file.model.bufferViews[i];
-        view.buffer = static_cast<int>(file.model.buffers.size());
-        view.byteOffset = 0;
-        view.byteLength = bytes.size();
-        file.model.buffers.emplace_back().data = std::move(bytes);
+        const tinygltf::Value* extension = extension_of(view);
+        if (extension == nullptr) continue;
+        const std::string name = "buffer view " + std::to_string(i);
+        try {
+            std::vector<unsigned char> bytes = unpack(read_packed(file, *extension, "compressed " + name), limit);
+            view.buffer = static_cast<int>(file.model.buffers.size());
+            view.byteOffset = 0;
+            view.byteLength = bytes.size();
+            file.model.buffers.emplace_back().data = std::move(bytes);
+        } catch (const BudgetError&) {
+            throw;
+        } catch (const std::runtime_error&) {
+            if (!has_data(file, view)) throw;
+            warnings.add("compressed data is damaged, its plain copy is read", name);
+        }
     }
 }
 

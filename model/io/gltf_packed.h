@@ -36,11 +36,13 @@ int add_unpacked(GltfFile& file, std::vector<unsigned char> bytes);
 std::uint32_t whole_number(const tinygltf::Value& object, const char* name, const std::string& user);
 
 // EXT_meshopt_compression, and KHR_meshopt_compression as far as it is the same: the views that have it become views of
-// what they unpack to. Throws if one is damaged.
-void unpack_meshopt(GltfFile& file, UnpackLimit& limit);
+// what they unpack to. One that is damaged stays what it is for programs without the extension, and is said; throws if
+// that isn't in the file.
+void unpack_meshopt(GltfFile& file, UnpackLimit& limit, Warnings& warnings);
 
 // KHR_draco_mesh_compression: primitives that have it get accessors of what it unpacks to, which hold as many vertices
-// and indices as there are; more than the file's own accessors say are refused. Throws if one is damaged.
-void unpack_draco(GltfFile& file, UnpackLimit& limit);
+// and indices as there are; more than the file's own accessors say are refused. One that is damaged keeps the accessors
+// it has for programs without the extension, and is said; throws if these have no data.
+void unpack_draco(GltfFile& file, UnpackLimit& limit, Warnings& warnings);
 
 }  // namespace model

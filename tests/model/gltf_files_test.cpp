@@ -139,6 +139,39 @@ TEST(GltfFiles, VersionOneIsRefusedByName) {
     EXPECT_TRUE(contains(complaint("glTF" + tests::bytes_of_u32(1) + std::string(32, '\0')), "glTF 1.0"));
 }
 
+TEST(GltfFiles, ClipsThatLackAPartAreLeftOutAlone) {
+    const auto without = [](const char* place) {
+        GltfBuilder builder = tests::make_everything();
+        json& clips = builder.document["animations"];
+        clips.push_back(clips[0]);
+        clips[0]["name"] = "bad";
+        const json::json_pointer pointer(place);
+        clips[0][pointer.parent_pointer()].erase(pointer.back());
+        return load("a.glb", builder.glb());
+    };
+    for (const char* place : {"/samplers/0/input", "/samplers/0/output"}) {
+        const model::Character character = without(place);
+        ASSERT_EQ(character.clips.size(), 1u) << place;
+        EXPECT_EQ(character.clips[0].name, "wag");
+        EXPECT_EQ(warnings_of(character), "clip that lacks a part, left out: 'bad'\n") << place;
+    }
+}
+
+// The members that are read apart are found whatever stands around them.
+TEST(GltfFiles, NamesWithBracesQuotesAndEscapesAreNoStructure) {
+    GltfBuilder builder = tests::make_everything();
+    const model::Character expected = tests::load(builder);
+    builder.document["asset"]["generator"] = "\"}]\\,{[\" \u00fc \\";
+    builder.document["asset"]["extras"] = {{"buffers", {1, 2}}, {"images", {{"meshes", "\\\""}}}};
+    builder.document["aa"] = "\\";
+    std::string text = (builder.glb(), builder.document.dump());
+    text.replace(text.find("\"buffers\":[{"), 9, "\"\\u0062uffers\"");
+    const model::Character character = load("a.glb", tests::make_glb(text, builder.binary));
+    EXPECT_EQ(character.mesh.positions, expected.mesh.positions);
+    EXPECT_EQ(character.mesh.textures.size(), 1u);
+    EXPECT_EQ(character.clips.size(), expected.clips.size());
+}
+
 TEST(GltfFiles, RequiredExtensionsOfLooksAndLightsAreAccepted) {
     for (const char* name : {"KHR_lights_punctual", "KHR_materials_unlit", "KHR_materials_clearcoat",
                              "KHR_materials_variants", "EXT_texture_webp", "KHR_animation_pointer"}) {

@@ -279,4 +279,53 @@ TEST(GltfPacked, TruncatedDracoIsRefused) {
     }
 }
 
+std::string warnings_of(const model::Character& character) {
+    std::string lines;
+    for (const model::Warning& warning : character.warnings) lines += model::text_of(warning) + '\n';
+    return lines;
+}
+
+// Positions by meshopt, and as they were before.
+GltfBuilder with_plain_copy(const GltfBuilder& plain, std::size_t view) {
+    GltfBuilder builder = plain;
+    const std::vector<float> values =
+        floats_of(plain, plain.document["meshes"][0]["primitives"][0]["attributes"]["POSITION"]);
+    tests::replace_view(builder, static_cast<int>(view), tests::pack_attributes(values.data(), values.size() / 3, 12),
+                        "EXT_meshopt_compression");
+    builder.document["bufferViews"][view].merge_patch(plain.document["bufferViews"][view]);
+    return builder;
+}
+
+TEST(GltfPacked, DamagedMeshoptIsReadFromItsPlainCopy) {
+    const GltfBuilder plain = tests::make_barrel();
+    const std::size_t positions = plain.document["meshes"][0]["primitives"][0]["attributes"]["POSITION"];
+    const std::size_t view = plain.document["accessors"][positions]["bufferView"];
+    GltfBuilder builder = with_plain_copy(plain, view);
+    const model::Character whole = tests::load(builder);
+    EXPECT_EQ(warnings_of(whole), "");
+    json& length = builder.document["bufferViews"][view]["extensions"]["EXT_meshopt_compression"]["byteLength"];
+    length = length.get<std::size_t>() - 8;
+    const model::Character damaged = tests::load(builder);
+    EXPECT_EQ(damaged.mesh.positions, tests::load(plain).mesh.positions);
+    EXPECT_EQ(warnings_of(damaged),
+              "compressed data is damaged, its plain copy is read: 'buffer view " + std::to_string(view) + "'\n");
+    builder.document["bufferViews"][view]["byteLength"] = 1 << 20;  // beyond what there is
+    contains(complaint(builder.glb()), "damaged");
+}
+
+TEST(GltfPacked, DamagedDracoIsReadFromItsPlainCopy) {
+    const GltfBuilder plain = tests::make_barrel();
+    GltfBuilder builder = tests::pack_draco(plain, draco::MESH_EDGEBREAKER_ENCODING);
+    json& length = builder.document["bufferViews"].back()["byteLength"];
+    length = length.get<std::size_t>() / 2;
+    builder.document["accessors"] = plain.document["accessors"];
+    const model::Character character = tests::load(builder);
+    EXPECT_EQ(character.mesh.positions, tests::load(plain).mesh.positions);
+    EXPECT_EQ(character.mesh.indices, tests::load(plain).mesh.indices);
+    EXPECT_EQ(warnings_of(character), "compressed data is damaged, its plain copy is read: 'Draco's'\n");
+    const int indices = builder.document["meshes"][0]["primitives"][0]["indices"];
+    builder.document["accessors"][static_cast<std::size_t>(indices)].erase("bufferView");
+    contains(complaint(builder.glb()), "Draco");
+}
+
 }  // namespace
