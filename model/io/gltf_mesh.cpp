@@ -10,6 +10,7 @@
 #include "model/io/gltf_file.h"
 #include "model/io/materials.h"
 #include "model/io/normals.h"
+#include "model/io/uv_map.h"
 #include "model/srgb.h"
 
 namespace model {
@@ -45,12 +46,22 @@ private:
     std::map<std::pair<std::int32_t, std::array<float, 16>>, std::uint16_t> entries_;
 };
 
+// Where in it a texture is read.
+struct UvPlace {
+    int set = 0;
+    glm::mat3 transform{1.0f};  // KHR_texture_transform
+    Sampler sampler;
+
+    bool operator==(const UvPlace&) const = default;
+};
+
 // What a material says about looks; the default is glTF's.
 struct Look {
+    std::string name;
     glm::vec4 factor{1.0f};  // linear
     Material material;
-    int uv_set = 0;
-    glm::mat3 uv_transform{1.0f};  // KHR_texture_transform
+    UvPlace place;                      // of the base colour's texture
+    std::optional<UvPlace> glow_place;  // of the emissive one, if that is another
 };
 
 float number_at(const tinygltf::Value& object, const char* name, std::size_t index, float fallback) {
@@ -62,7 +73,7 @@ float number_at(const tinygltf::Value& object, const char* name, std::size_t ind
     return std::isfinite(number) ? number : fallback;
 }
 
-void apply_texture_transform(const tinygltf::ExtensionMap& extensions, Look& look) {
+void apply_texture_transform(const tinygltf::ExtensionMap& extensions, UvPlace& place) {
     const auto found = extensions.find("KHR_texture_transform");
     if (found == extensions.end() || !found->second.IsObject()) return;
     const tinygltf::Value& value = found->second;
@@ -72,10 +83,10 @@ void apply_texture_transform(const tinygltf::ExtensionMap& extensions, Look& loo
     if (value.Has("rotation") && value.Get("rotation").IsNumber())
         angle = static_cast<float>(value.Get("rotation").GetNumberAsDouble());
     if (!std::isfinite(angle)) angle = 0;
-    if (value.Has("texCoord") && value.Get("texCoord").IsInt()) look.uv_set = value.Get("texCoord").GetNumberAsInt();
+    if (value.Has("texCoord") && value.Get("texCoord").IsInt()) place.set = value.Get("texCoord").GetNumberAsInt();
     const float c = std::cos(angle), s = std::sin(angle);
-    look.uv_transform = glm::mat3(glm::vec3(c * scale.x, -s * scale.x, 0), glm::vec3(s * scale.y, c * scale.y, 0),
-                                  glm::vec3(offset, 1));
+    place.transform = glm::mat3(glm::vec3(c * scale.x, -s * scale.x, 0), glm::vec3(s * scale.y, c * scale.y, 0),
+                                glm::vec3(offset, 1));
 }
 
 float number_of(const tinygltf::Value& object, const char* name, float fallback) {
@@ -102,15 +113,10 @@ tinygltf::TextureInfo texture_info(const tinygltf::Value& object, const char* na
     return info;
 }
 
-// Where in it a texture is read.
-void place_texture(const tinygltf::TextureInfo& info, const TextureSet& textures, Look& look) {
-    look.material.sampler = textures.sampler_of(info.index);
-    look.uv_set = info.texCoord;
-    apply_texture_transform(info.extensions, look);
-}
-
-bool same_place(const Look& a, const Look& b) {
-    return a.uv_set == b.uv_set && a.uv_transform == b.uv_transform && a.material.sampler == b.material.sampler;
+UvPlace place_of(const tinygltf::TextureInfo& info, const TextureSet& textures) {
+    UvPlace place{info.texCoord, glm::mat3(1.0f), textures.sampler_of(info.index)};
+    apply_texture_transform(info.extensions, place);
+    return place;
 }
 
 // The older model's diffuse colour where a material has that, else the metallic-roughness one's.
@@ -127,11 +133,10 @@ void read_base_color(const tinygltf::Material& found, TextureSet& textures, Look
     const tinygltf::TextureInfo info =
         glossy != nullptr ? texture_info(*glossy, "diffuseTexture") : pbr.baseColorTexture;
     look.material.texture = textures.id_of(info.index);
-    place_texture(info, textures, look);
+    look.place = place_of(info, textures);
 }
 
-// Of two textures that are read differently the one that glows is left out.
-void read_emission(const tinygltf::Material& found, TextureSet& textures, Warnings& warnings, Look& look) {
+void read_emission(const tinygltf::Material& found, TextureSet& textures, Look& look) {
     glm::vec3& emissive = look.material.emissive;
     for (int i = 0; i < 3 && found.emissiveFactor.size() == 3; ++i)
         emissive[i] = std::max(0.0f, static_cast<float>(found.emissiveFactor[static_cast<std::size_t>(i)]));
@@ -139,21 +144,14 @@ void read_emission(const tinygltf::Material& found, TextureSet& textures, Warnin
         emissive *= std::max(0.0f, number_of(*strength, "emissiveStrength", 1));
     if (!std::isfinite(emissive.x + emissive.y + emissive.z)) emissive = glm::vec3(0.0f);
     if (emissive == glm::vec3(0.0f) || found.emissiveTexture.index < 0) return;
-    Look own;
-    place_texture(found.emissiveTexture, textures, own);
-    const std::uint8_t texture = textures.id_of(found.emissiveTexture.index);
-    if (look.material.texture == no_texture) {
-        look.uv_set = own.uv_set;
-        look.uv_transform = own.uv_transform;
-        look.material.sampler = own.material.sampler;
-    }
-    if (texture != no_texture && same_place(own, look)) {
-        look.material.emissive_texture = texture;
-        return;
-    }
+    look.material.emissive_texture = textures.id_of(found.emissiveTexture.index);
     // Without its texture a glow would cover all that it leaves dark.
-    if (texture != no_texture) warnings.add("emissive texture read unlike the base colour's, left out", found.name);
-    emissive = glm::vec3(0.0f);
+    if (look.material.emissive_texture == no_texture) emissive = glm::vec3(0.0f);
+    const UvPlace own = place_of(found.emissiveTexture, textures);
+    if (look.material.texture == no_texture)
+        look.place = own;
+    else if (look.material.emissive_texture != no_texture && own != look.place)
+        look.glow_place = own;
 }
 
 void read_alpha(const tinygltf::Material& found, Warnings& warnings, Look& look) {
@@ -175,7 +173,9 @@ Look look_of(const GltfFile& file, int material, TextureSet& textures, Warnings&
     }
     const tinygltf::Material& found = file.model.materials[static_cast<std::size_t>(material)];
     read_base_color(found, textures, look);
-    read_emission(found, textures, warnings, look);
+    read_emission(found, textures, look);
+    look.material.sampler = look.place.sampler;
+    look.name = found.name;
     read_alpha(found, warnings, look);
     look.material.double_sided = found.doubleSided;
     look.material.unlit = found.extensions.contains("KHR_materials_unlit");
@@ -319,9 +319,10 @@ struct Influences {
 // Adds one primitive, hung on one attachment, to the mesh.
 class PrimitiveWriter {
 public:
-    PrimitiveWriter(GltfFile& file, const tinygltf::Primitive& primitive, Character& character)
+    PrimitiveWriter(GltfFile& file, const tinygltf::Primitive& primitive, TextureSet& textures, Character& character)
         : file_(file),
           primitive_(primitive),
+          textures_(textures),
           mesh_(character.mesh),
           warnings_(character.warnings),
           first_(character.mesh.positions.size()) {}
@@ -374,36 +375,104 @@ private:
     void write_normals() {
         const auto given = optional_accessor(file_, primitive_.attributes, "NORMAL", 3, vertex_count_);
         for (const std::uint32_t vertex : used_) {
-            mesh_.normals.push_back(
-                given ? glm::vec3(given->number(vertex, 0), given->number(vertex, 1), given->number(vertex, 2))
-                      : glm::vec3(0.0f));
+            glm::vec3 normal(0.0f);
+            for (int axis = 0; axis < 3 && given; ++axis) normal[axis] = given->number(vertex, axis);
+            if (!std::isfinite(normal.x + normal.y + normal.z))
+                warnings_.add("normal is no number, computed", "vertex " + std::to_string(vertex));
+            mesh_.normals.push_back(normal);
         }
         complete_normals(std::span(mesh_.positions).subspan(first_), triangles_, {},
                          std::span(mesh_.normals).subspan(first_));
     }
 
     void write_looks(const Look& look) {
-        const std::string uv_name = "TEXCOORD_" + std::to_string(look.uv_set);
-        const auto uvs = optional_accessor(file_, primitive_.attributes, uv_name, 2, vertex_count_);
+        Material material = look.material;
+        const bool shown = material.texture != no_texture || material.emissive_texture != no_texture;
+        std::vector<glm::vec2> uvs = uvs_at(look.place, shown);
+        if (uvs.empty() && material.texture != no_texture) {
+            warnings_.add("texture without coordinates, left out", look.name);
+            material.texture = no_texture;
+        }
+        if (look.glow_place) uvs = join_glow(look, std::move(uvs), material);
+        if (uvs.empty()) {
+            if (material.emissive_texture != no_texture) material.emissive = glm::vec3(0.0f);
+            material.emissive_texture = no_texture;
+            uvs.resize(used_.size(), glm::vec2(0.0f));
+        }
+        mesh_.uvs.insert(mesh_.uvs.end(), uvs.begin(), uvs.end());
+        write_colors(look.factor);
+        mesh_.slots.resize(mesh_.positions.size(), no_slot);
+        mesh_.material_ids.resize(mesh_.positions.size(), number_of(material, mesh_.materials));
+    }
+
+    // One a vertex; none if the file has none. shown: they matter.
+    std::vector<glm::vec2> uvs_at(const UvPlace& place, bool shown) {
+        std::vector<glm::vec2> uvs;
+        const std::string name = "TEXCOORD_" + std::to_string(place.set);
+        const auto given = optional_accessor(file_, primitive_.attributes, name, 2, vertex_count_);
+        if (!given) return uvs;
+        uvs.reserve(used_.size());
+        for (const std::uint32_t vertex : used_) {
+            const glm::vec3 uv = place.transform * glm::vec3(given->number(vertex, 0), given->number(vertex, 1), 1);
+            const bool finite = std::isfinite(uv.x + uv.y);
+            if (!finite && shown)
+                warnings_.add("texture coordinate is no number, set to 0", "vertex " + std::to_string(vertex));
+            uvs.push_back(finite ? glm::vec2(uv) : glm::vec2(0));
+        }
+        return uvs;
+    }
+
+    // Two textures that are read differently: the coordinates, of `uvs` and its own, that both can be read by, as one
+    // is resampled for them. Where neither follows from the other the one that glows is left out.
+    std::vector<glm::vec2> join_glow(const Look& look, std::vector<glm::vec2> uvs, Material& material) {
+        std::vector<glm::vec2> own = uvs_at(*look.glow_place, true);
+        const Sampler &base = look.place.sampler, &glow = look.glow_place->sampler;
+        if (uvs.empty()) {
+            material.sampler = glow;
+            return own;
+        }
+        const std::uint8_t for_base = moved_texture(material.emissive_texture, uvs, own, base, glow);
+        if (for_base != no_texture) {
+            material.emissive_texture = for_base;
+            return uvs;
+        }
+        const std::uint8_t for_own = moved_texture(material.texture, own, uvs, glow, base);
+        if (for_own != no_texture) {
+            material.texture = for_own;
+            material.sampler = glow;
+            return own;
+        }
+        warnings_.add("emissive texture read unlike the base colour's, left out", look.name);
+        material.emissive_texture = no_texture;
+        material.emissive = glm::vec3(0.0f);
+        return uvs;
+    }
+
+    // A texture that is read at `from` by `by` and shows what texture `id` does at `to` by `sampler`, or no_texture.
+    std::uint8_t moved_texture(std::uint8_t id, const std::vector<glm::vec2>& from, const std::vector<glm::vec2>& to,
+                               const Sampler& by, const Sampler& sampler) {
+        if (from.size() != to.size()) return no_texture;
+        const auto map = uv_map(from, to, triangles_);
+        return map && shows_all(from, by, sampler, *map) ? textures_.resampled_id(id, sampler, *map) : no_texture;
+    }
+
+    void write_colors(const glm::vec4& base) {
         const int color = attribute_of(primitive_.attributes, "COLOR_0");
         const int channels = color < 0 ? 0 : accessor_width(file_, color);
         if (color >= 0 && channels != 3 && channels != 4)
             fail(std::to_string(channels) + " components of COLOR_0", "3 or 4");
         const auto colors = optional_accessor(file_, primitive_.attributes, "COLOR_0", channels, vertex_count_);
         for (const std::uint32_t vertex : used_) {
-            glm::vec3 uv(0, 0, 1);
-            if (uvs) uv = look.uv_transform * glm::vec3(uvs->number(vertex, 0), uvs->number(vertex, 1), 1);
-            mesh_.uvs.push_back(std::isfinite(uv.x + uv.y) ? glm::vec2(uv) : glm::vec2(0));
-            glm::vec4 factor = look.factor;
-            for (int i = 0; i < channels; ++i) factor[i] *= colors->number(vertex, i);
+            glm::vec4 factor = base;
+            for (int i = 0; i < channels; ++i) {
+                const float given = colors->number(vertex, i);
+                if (std::isnan(given))
+                    warnings_.add("colour is no number, left out", "vertex " + std::to_string(vertex));
+                factor[i] *= std::isnan(given) ? 1.0f : given;
+            }
             mesh_.colors.emplace_back(srgb_of_linear(factor.r), srgb_of_linear(factor.g), srgb_of_linear(factor.b),
                                       unit_byte(factor.a));
         }
-        mesh_.slots.resize(mesh_.positions.size(), no_slot);
-        Material material = look.material;
-        if (!uvs && material.emissive_texture != no_texture) material.emissive = glm::vec3(0.0f);
-        if (!uvs) material.texture = material.emissive_texture = no_texture;
-        mesh_.material_ids.resize(mesh_.positions.size(), number_of(material, mesh_.materials));
     }
 
     // JOINTS_0 and WEIGHTS_0 and so on; none of a rigid part.
@@ -477,6 +546,7 @@ private:
 
     GltfFile& file_;
     const tinygltf::Primitive& primitive_;
+    TextureSet& textures_;
     Mesh& mesh_;
     Warnings& warnings_;
     std::size_t first_, vertex_count_ = 0;
@@ -550,7 +620,7 @@ void build_mesh(GltfFile& file, const NodeOrder& nodes, Character& character) {
                 const tinygltf::Skin& skin = file.model.skins[static_cast<std::size_t>(node.skin)];
                 skins[node.skin] = attach_to_skin(file, skin, nodes, palette);
             }
-            PrimitiveWriter writer(file, primitive, character);
+            PrimitiveWriter writer(file, primitive, textures, character);
             const Look look = look_of(file, primitive.material, textures, character.warnings);
             writer.write(look, skinned ? skins[node.skin] : Attachment{{palette.entry(own, glm::mat4(1.0f))}, false});
             writer.write_morphs(own, node.weights.empty() ? mesh.weights : node.weights);

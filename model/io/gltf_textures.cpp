@@ -1,7 +1,9 @@
 #include <stdexcept>
+#include <utility>
 
 #include "model/io/data_uri.h"
 #include "model/io/gltf_file.h"
+#include "model/io/uv_map.h"
 
 namespace model {
 namespace {
@@ -58,6 +60,22 @@ std::uint8_t TextureSet::decode(int index) {
         return no_texture;
     }
     return textures_.of_file(percent_decoded(image.uri));
+}
+
+std::uint8_t TextureSet::resampled_id(std::uint8_t id, const Sampler& sampler, const glm::mat3& map) {
+    constexpr std::size_t most_texels = std::size_t{1} << 24;  // of all, for what it takes: a second
+    const auto is_alike = [&](const glm::mat3& other) {
+        const glm::mat3 off = other - map;
+        return glm::dot(off[0], off[0]) + glm::dot(off[1], off[1]) + glm::dot(off[2], off[2]) < 1e-8f;
+    };
+    if (is_alike(glm::mat3(1.0f))) return id;
+    for (const Resampled& other : resampled_)
+        if (other.from == id && other.sampler == sampler && is_alike(other.map)) return other.id;
+    if (id == no_texture || resampled_texels_ > most_texels) return no_texture;
+    Texture texture = resampled(textures_[id], sampler, map);
+    resampled_texels_ += texture.texels.size();
+    resampled_.push_back({id, textures_.add(std::move(texture), "a resampled one"), sampler, map});
+    return resampled_.back().id;
 }
 
 Sampler TextureSet::sampler_of(int texture) const {

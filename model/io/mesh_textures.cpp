@@ -36,12 +36,16 @@ std::uint8_t MeshTextures::of_path(const std::filesystem::path& path, std::strin
 }
 
 std::uint8_t MeshTextures::of_bytes(std::span<const unsigned char> bytes, std::string_view name) {
-    if (textures_.size() == no_texture) return left_out("texture beyond the 255th, left out", name);
     try {
-        textures_.push_back(decode_image(bytes));
+        return add(decode_image(bytes), name);
     } catch (const ImageError& error) {
         return left_out(std::string("texture ") + error.what() + ", left out", name);
     }
+}
+
+std::uint8_t MeshTextures::add(Texture texture, std::string_view name) {
+    if (textures_.size() == no_texture) return left_out("texture beyond the 255th, left out", name);
+    textures_.push_back(std::move(texture));
     names_.emplace_back(name);
     fit();
     return static_cast<std::uint8_t>(textures_.size() - 1);

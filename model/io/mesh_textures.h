@@ -27,6 +27,10 @@ public:
     std::uint8_t of_file(std::string_view name);
     // Of an encoded image itself, called `name` in warnings: a new texture each time.
     std::uint8_t of_bytes(std::span<const unsigned char> bytes, std::string_view name);
+    // Of what is already decoded, likewise.
+    std::uint8_t add(Texture texture, std::string_view name);
+
+    const Texture& operator[](std::uint8_t id) const { return textures_[id]; }
 
     std::vector<Texture> take() { return std::move(textures_); }
 

@@ -2,6 +2,10 @@
 #include <gtest/gtest.h>
 #include <webp/encode.h>
 
+#include <array>
+#include <limits>
+
+#include "model/texture_sample.h"
 #include "tests/model/gltf_builder.h"
 
 namespace {
@@ -83,6 +87,104 @@ TEST(GltfLooks, OneWithoutBaseTextureGlowsWhereItsOwnTextureSays) {
     EXPECT_EQ(material_of(character).texture, model::no_texture);
     EXPECT_EQ(material_of(character).emissive_texture, 0);
     EXPECT_EQ(warnings_of(character), "");
+}
+
+// make_everything() with four texels that glow, read as `glow` says at these coordinates.
+model::Character glowing(const json& glow, const std::vector<float>& uvs) {
+    GltfBuilder builder = tests::make_everything();
+    const std::string texels = "\xff\x01\x01\x01\xff\x01\x01\x01\xff\xff\xff\xff";
+    builder.document["images"].push_back(
+        {{"mimeType", "image/png"}, {"bufferView", builder.add_view(tests::make_png(2, 2, texels))}});
+    builder.document["samplers"] = {{{"magFilter", 9728}, {"wrapS", 33071}, {"wrapT", 33071}}};
+    builder.document["textures"].push_back({{"source", 1}, {"sampler", 0}});
+    json& material = builder.document["materials"][0];
+    material["name"] = "lamp";
+    material["emissiveFactor"] = {1, 1, 1};
+    material["emissiveTexture"] = {{"index", 1}};
+    material["emissiveTexture"].merge_patch(glow);
+    if (!uvs.empty()) builder.document["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_1"] = builder.vec2(uvs);
+    return load(builder);
+}
+
+// Linear, at the corner `vertex` and a quarter of the way to the one that is opposite.
+glm::vec3 glow_near(const model::Mesh& mesh, std::size_t vertex) {
+    const model::Material& material = mesh.material_of(0);
+    if (material.emissive_texture == model::no_texture) return glm::vec3(0);
+    const glm::vec2 uv = glm::mix(mesh.uvs[vertex], mesh.uvs[(vertex + 2) % 4], 0.25f);
+    return glm::vec3(texture_at(mesh.textures[material.emissive_texture], material.sampler, uv));
+}
+
+TEST(GltfLooks, AGlowIsReadByItsOwnCoordinates) {
+    const struct {
+        const char* what;
+        json glow;
+        std::vector<float> uvs;
+        std::array<int, 4> texel;  // that corners show
+    } cases[] = {{"the same", json::object(), {}, {0, 1, 3, 2}},
+                 {"as copies", {{"texCoord", 1}}, {0, 0, 1, 0, 1, 1, 0, 1}, {0, 1, 3, 2}},
+                 {"turned", {{"texCoord", 1}}, {1, 0, 1, 1, 0, 1, 0, 0}, {1, 3, 2, 0}},
+                 {"moved by a transform",
+                  {{"extensions", {{"KHR_texture_transform", {{"scale", {0.5, 1}}, {"offset", {0.5, 0}}}}}}},
+                  {},
+                  {1, 1, 3, 3}}};
+    constexpr std::array colors{glm::vec3(1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, 0, 1), glm::vec3(1)};
+    for (const auto& [what, glow, uvs, texel] : cases) {
+        const model::Character character = glowing(glow, uvs);
+        EXPECT_EQ(warnings_of(character), "") << what;
+        for (std::size_t i = 0; i < 4; ++i)
+            EXPECT_LT(glm::distance(glow_near(character.mesh, i), colors[static_cast<std::size_t>(texel[i])]), 0.01f)
+                << what << " " << i;
+    }
+}
+
+TEST(GltfLooks, ColoursOfOnePlaceFollowAGlowThatHasMore) {
+    GltfBuilder builder = tests::make_everything();
+    builder.document["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_1"] = builder.vec2({0, 0, 1, 0, 1, 1, 0, 1});
+    builder.document["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] =
+        builder.vec2(std::vector<float>(8, 0.25f));
+    builder.document["materials"][0]["emissiveFactor"] = {1, 1, 1};
+    builder.document["materials"][0]["emissiveTexture"] = {{"index", 0}, {"texCoord", 1}};
+    const model::Character character = load(builder);
+    EXPECT_EQ(warnings_of(character), "");
+    EXPECT_EQ(character.mesh.uvs[2], glm::vec2(1, 1));
+    const model::Material& material = material_of(character);
+    EXPECT_EQ(character.mesh.textures[material.emissive_texture].texels[1], glm::u8vec4(1, 2, 3, 255));
+    for (const glm::u8vec4& texel : character.mesh.textures[material.texture].texels)
+        EXPECT_EQ(texel, glm::u8vec4(255, 32, 16, 255));
+}
+
+TEST(GltfLooks, AGlowThatNoMapGivesIsSaidToBeLost) {
+    const model::Character character = glowing({{"texCoord", 1}}, {0, 0, 1, 0, 0.2f, 1, 0, 1});
+    EXPECT_EQ(warnings_of(character), "emissive texture read unlike the base colour's, left out: 'lamp'\n");
+    EXPECT_EQ(material_of(character).emissive, glm::vec3(0));
+}
+
+TEST(GltfLooks, WhatIsNoNumberAndWhatLacksCoordinatesIsSaid) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const auto changed = [](const char* name, auto add) {
+        GltfBuilder builder = tests::make_everything();
+        json& attributes = builder.document["meshes"][0]["primitives"][0]["attributes"];
+        attributes[name] = add(builder);
+        if (attributes[name].is_null()) attributes.erase(name);
+        builder.document["materials"][0]["name"] = "skin";
+        return load(builder);
+    };
+    const model::Character normals = changed("NORMAL", [&](GltfBuilder& b) {
+        return json(b.vec3({0, 0, 1, nan, 0, 1, 0, nan, 1, 0, 0, 1}));
+    });
+    EXPECT_EQ(warnings_of(normals), "normal is no number, computed: 'vertex 1', and 1 more\n");
+    EXPECT_EQ(normals.mesh.normals[1], glm::vec3(0, 0, 1));
+    const model::Character uvs = changed("TEXCOORD_0", [&](GltfBuilder& b) {
+        return json(b.vec2({0, 0, 1, 0, nan, 1, 0, 1}));
+    });
+    EXPECT_EQ(warnings_of(uvs), "texture coordinate is no number, set to 0: 'vertex 2'\n");
+    const model::Character colors = changed("COLOR_0", [&](GltfBuilder& b) {
+        return json(b.vec3({nan, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}));
+    });
+    EXPECT_EQ(warnings_of(colors), "colour is no number, left out: 'vertex 0'\n");
+    EXPECT_EQ(colors.mesh.colors[0], colors.mesh.colors[1]);
+    const model::Character bare = changed("TEXCOORD_0", [](GltfBuilder&) { return json(); });
+    EXPECT_EQ(warnings_of(bare), "texture without coordinates, left out: 'skin'\n");
 }
 
 TEST(GltfLooks, UnlitStaysSo) {
