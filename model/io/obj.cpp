@@ -271,6 +271,8 @@ private:
         mesh_.colors.reserve(count);
         mesh_.uvs.reserve(count);
         for (const auto& [v, next, corner] : splits_.vertices()) {
+            if (corner.uv == none && looks_[corner.look].texture != no_texture)
+                warnings_.add("texture without coordinates, left out", "vertex " + std::to_string(v + 1));
             const glm::u8vec3 own = colors_.empty() ? glm::u8vec3(255) : colors_[v], look = looks_[corner.look].color;
             mesh_.colors.emplace_back(product(own.r, look.r), product(own.g, look.g), product(own.b, look.b), 255);
             mesh_.uvs.push_back(corner.uv == none ? glm::vec2(0.0f) : uvs_[corner.uv]);

@@ -116,6 +116,20 @@ TEST_F(Obj, MaterialsColorTheirFaces) {
     EXPECT_EQ(mesh.textures[0].texels[0], glm::u8vec4(255, 32, 16, 255));
 }
 
+TEST_F(Obj, ATextureWithoutCoordinatesIsSaid) {
+    folder_.write("a.mtl", "newmtl painted\nmap_Kd a.png\n");
+    folder_.write("a.png", tests::make_png(1, 1, "abc"));
+    const auto warnings_of = [&](const std::string& faces) {
+        const std::string text = "mtllib a.mtl\n" + square + "vt 0 0\nusemtl painted\n" + faces;
+        std::string lines;
+        for (const model::Warning& warning : model::load_mesh(folder_.write("a.obj", text)).warnings)
+            lines += model::text_of(warning);
+        return lines;
+    };
+    EXPECT_EQ(warnings_of("f 1/1 2/1 3/1\n"), "");
+    EXPECT_EQ(warnings_of("f 1/1 2 3\n"), "texture without coordinates, left out: 'vertex 2', and 1 more");
+}
+
 // Two libraries, two textures, two looks by turns: no face has another's.
 TEST_F(Obj, FacesKeepTheLookThatIsInUse) {
     folder_.write("a.mtl", "newmtl one\nKd 1 0 0\nmap_Kd one.png\nnewmtl plain\nKd 0 0 1\n");
