@@ -195,6 +195,18 @@ Json stats_of(const model::Mesh& mesh, const motion::Bounds& bounds, const point
     return stats;
 }
 
+// What can't be sampled is refused by the file's name, as what can't be read is.
+pointsample::PointModel sampled(const Options& options, const model::Character& character,
+                                std::span<const pointsample::PosedMesh> poses,
+                                const pointsample::SampleOptions& wanted) {
+    apps::ProgressBar bar("Sampling " + character.name);
+    try {
+        return pointsample::sample(character.mesh, poses, wanted, [&](double fraction) { bar(fraction); });
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(options.input + ": " + error.what());
+    }
+}
+
 void run(const Options& options) {
     const auto start = std::chrono::steady_clock::now();
     // Both are opened before the work: a run that fails leaves no new file.
@@ -208,11 +220,7 @@ void run(const Options& options) {
     const std::vector<pointsample::PosedMesh> poses = poses_of(character, options);
     const pointsample::SampleOptions wanted{static_cast<std::size_t>(options.points), options.seed, options.order(),
                                             options.visible_only};
-    pointsample::PointModel model;
-    {
-        apps::ProgressBar bar("Sampling " + character.name);
-        model = pointsample::sample(character.mesh, poses, wanted, [&](double fraction) { bar(fraction); });
-    }
+    const pointsample::PointModel model = sampled(options, character, poses, wanted);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     const std::string key =
         options.format() == Format::pts ? pointsample::model_key(character.mesh, poses, wanted) : std::string();

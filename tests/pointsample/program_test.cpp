@@ -153,6 +153,13 @@ TEST_F(Program, RefusesBadFilesWithOne) {
     expect_refusal("huge.obj --points 5 --out out.ply --stats stats.json", 1);
 }
 
+TEST_F(Program, NamesTheFileThatHasNothingToSample) {
+    folder_.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
+    EXPECT_EQ(run("flat.obj --points 10 --out out.ply"), 1);
+    EXPECT_EQ(read(folder_ / "stderr"),
+              "pointsample: flat.obj: found no triangle with an area; expected a surface to sample\n");
+}
+
 TEST_F(Program, RefusesToOverwriteItsInputOrItsOtherOutput) {
     const std::string square = read(folder_ / "square.glb");
     fs::create_symlink("square.glb", folder_ / "link.glb");
