@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 
 namespace motion {
 namespace {
@@ -59,6 +60,7 @@ public:
     }
 
     bool empty() const { return key_count_ == 0; }
+    std::size_t width() const { return width_; }
 
     Segment segment(double time) const { return find_segment(channel_.times, key_count_, time); }
 
@@ -127,6 +129,36 @@ void apply_morph_weights(const model::Channel& channel, double time, const std::
     }
 }
 
+std::vector<float> values_at(const model::Channel& channel, double time) {
+    if (channel.path == model::Path::rotation) {
+        const glm::quat rotation = rotation_at(channel, time, glm::quat(1, 0, 0, 0));
+        return {rotation.x, rotation.y, rotation.z, rotation.w};
+    }
+    const std::size_t parts = channel.interpolation == model::Interpolation::cubic_spline ? 3 : 1;
+    const ChannelReader reader(channel, channel.values.size() / (channel.times.size() * parts));
+    std::vector<float> values;
+    if (reader.empty()) return values;
+    const Segment segment = reader.segment(time);
+    for (std::size_t i = 0; i < reader.width(); ++i) values.push_back(reader.interpolate(segment, i));
+    return values;
+}
+
+// Rotations are added on the side of the first: a quaternion and its opposite are the same.
+model::Channel mean_of(const model::Channel& channel, double duration) {
+    constexpr int moments = 48;
+    model::Channel mean{channel.node, channel.path, model::Interpolation::step, {0.0f}, {}};
+    std::vector<float> first;
+    for (int i = 0; i < moments; ++i) {
+        const std::vector<float> values = values_at(channel, duration * i / moments);
+        if (i == 0) first = values;
+        const float along = std::inner_product(values.begin(), values.end(), first.begin(), 0.0f);
+        const float sign = channel.path == model::Path::rotation && along < 0 ? -1.0f : 1.0f;
+        mean.values.resize(values.size());
+        for (std::size_t j = 0; j < values.size(); ++j) mean.values[j] += sign * values[j] / moments;
+    }
+    return mean;
+}
+
 glm::mat4 matrix_of(const model::Transform& transform) {
     glm::mat4 matrix = glm::mat4_cast(transform.rotation);
     for (int axis = 0; axis < 3; ++axis) matrix[axis] *= transform.scale[axis];
@@ -190,6 +222,13 @@ void evaluate(const model::Character& character, const model::Clip& clip, double
         if (driven[i]) out.world[i] = matrix_of(locals[i]);
     }
     model::resolve_hierarchy(character.skeleton, out.world, out.palette);
+}
+
+model::Clip mean_of(const model::Clip& clip) {
+    model::Clip mean{clip.name, 0, {}};
+    for (const model::Channel& channel : clip.channels)
+        if (!channel.times.empty()) mean.channels.push_back(mean_of(channel, clip.duration));
+    return mean;
 }
 
 void skin(const model::Mesh& mesh, const Pose& pose, std::vector<glm::vec3>& positions,

@@ -22,6 +22,9 @@ void evaluate_rest(const model::Character& character, Pose& out);
 // The pose of `clip` at `time` [s], clamped to the clip's keys. Quaternions take the shorter arc.
 void evaluate(const model::Character& character, const model::Clip& clip, double time, Pose& out);
 
+// One pose, as a clip of that name without duration: each channel at its mean over the clip's time.
+model::Clip mean_of(const model::Clip& clip);
+
 // Linear-blend skinning of every vertex: positions and unit normals (transformed by the adjugate's rotation
 // part, so that mirrored and unevenly scaled joints keep outward normals). Outputs are resized.
 void skin(const model::Mesh& mesh, const Pose& pose, std::vector<glm::vec3>& positions,

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "model/input_file.h"
+#include "motion/pose.h"
 #include "scene/body_motion.h"
 #include "scene/person.h"
 
@@ -17,10 +18,11 @@ namespace scene {
 
 namespace {
 
-// A clip, or a moment of it.
+// A clip, or a pose of it.
 struct Take {
     int clip = 0;
-    std::optional<double> held;  // [s] the moment
+    std::optional<double> held;  // [s] a moment
+    bool is_mean = false;        // the mean of all moments
 
     bool operator==(const Take&) const = default;
 };
@@ -105,9 +107,8 @@ Take calmest(Repertoire& clips, model::Warnings& warnings) {
     if (!found) found = clips.best(liveliness);
     if (!found) return {0, std::nullopt};
     if (!clips.is_gait(*found)) return {*found, std::nullopt};
-    warnings.add("no clip to stand in, a moment of one is held", clips.clip(*found).name);
-    const BodyMotion& motion = clips.motion(*found);
-    return {*found, motion.times[motion.tallest()]};
+    warnings.add("no clip to stand in, the mean pose of one is held", clips.clip(*found).name);
+    return {*found, std::nullopt, true};
 }
 
 Take to_stand(Repertoire& clips, model::Warnings& warnings) {
@@ -179,6 +180,13 @@ model::Clip still_of(const model::Clip& clip, double moment) {
     return still;
 }
 
+// What somebody who walks is in on the whole: upright, on both feet, arms hanging.
+model::Clip mean_pose_of(const model::Clip& clip) {
+    model::Clip still = motion::mean_of(clip);
+    still.name += ", its mean pose";
+    return still;
+}
+
 // Collects what is to be baked.
 class Program {
 public:
@@ -188,13 +196,14 @@ public:
         const auto found = std::ranges::find(takes_, take);
         if (found != takes_.end()) return static_cast<std::uint8_t>(found - takes_.begin());
         takes_.push_back(take);
-        casting_.clips.push_back(take.held ? still(take) : take.clip);
+        casting_.clips.push_back(take.held || take.is_mean ? still(take) : take.clip);
         return static_cast<std::uint8_t>(takes_.size() - 1);
     }
 
 private:
     int still(const Take& take) {
-        casting_.stills.push_back(still_of(character_.clips[static_cast<std::size_t>(take.clip)], *take.held));
+        const model::Clip& clip = character_.clips[static_cast<std::size_t>(take.clip)];
+        casting_.stills.push_back(take.is_mean ? mean_pose_of(clip) : still_of(clip, *take.held));
         return static_cast<int>(character_.clips.size() + casting_.stills.size()) - 1;
     }
 

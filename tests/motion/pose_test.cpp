@@ -58,6 +58,23 @@ TEST(Pose, RotationSpeedIsEvenAlongTheArc) {
     }
 }
 
+TEST(Pose, TheMeanOfAClipIsEachChannelsOverItsTime) {
+    const float a = std::sin(0.5f), b = std::cos(0.5f);  // 1 rad about y, and 1 rad the other way with its sign flipped
+    const model::Clip clip{"turn",
+                           2,
+                           {{0, Path::translation, Interpolation::linear, {0, 2}, {0, 0, 0, 4, 2, -2}},
+                            {0, Path::rotation, Interpolation::step, {0, 1}, {0, a, 0, b, 0, a, 0, -b}},
+                            {0, Path::scale, Interpolation::linear, {}, {}}}};
+    const model::Clip mean = motion::mean_of(clip);
+    EXPECT_EQ(mean.duration, 0);
+    ASSERT_EQ(mean.channels.size(), 2u) << "a channel without keys says nothing";
+    const std::vector<float>& way = mean.channels[0].values;
+    EXPECT_LT(glm::distance(glm::vec3(way.at(0), way.at(1), way.at(2)), glm::vec3(2, 1, -1)), 0.1f);
+    const std::vector<float>& turn = mean.channels[1].values;
+    EXPECT_NEAR(turn.at(1), 0, 1e-5f);
+    EXPECT_NEAR(turn.at(3), b, 1e-5f);
+}
+
 TEST(Pose, TimesOutsideTheKeysAreClamped) {
     const Channel channel{0, Path::translation, Interpolation::linear, {0.25f, 0.75f}, {1, 2, 3, 4, 5, 6}};
     EXPECT_EQ(translation_of(channel, -5), glm::vec3(1, 2, 3));
