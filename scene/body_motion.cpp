@@ -46,7 +46,8 @@ struct Body {
 struct Moment {
     motion::Bounds box;
     glm::vec2 middle{0.0f};
-    glm::vec2 tread{0.0f};  // [units/s] mean velocity of what is lowest
+    glm::vec2 tread{0.0f};  // [units/s] median velocity of what is lowest
+    double treading = 0;    // how many vertices that is
     double speed = 0;       // [units/s] mean over the vertices, beside the drift
 };
 
@@ -54,17 +55,18 @@ struct Moment {
 void measure_speeds(const std::vector<glm::vec3>& now, const std::vector<glm::vec3>& then, glm::dvec2 drift,
                     Moment& moment) {
     const float low = moment.box.min.y + contact_share * moment.box.size().y;
-    glm::dvec2 tread(0.0);
-    double low_count = 0;
+    std::vector<float> across, along;
     for (std::size_t i = 0; i < now.size(); ++i) {
         const glm::dvec3 velocity = glm::dvec3(then[i] - now[i]) / instant;
         moment.speed += glm::length(velocity - glm::dvec3(drift.x, 0, drift.y));
         if (now[i].y > low || then[i].y > low) continue;
-        tread += glm::dvec2(velocity.x, velocity.z);
-        ++low_count;
+        across.push_back(static_cast<float>(velocity.x));
+        along.push_back(static_cast<float>(velocity.z));
     }
     moment.speed /= static_cast<double>(now.size());
-    if (low_count > 0) moment.tread = glm::vec2(tread / low_count);
+    // Not the mean: a foot that swings past the other is low too, and a cape hangs.
+    moment.treading = static_cast<double>(along.size());
+    if (!along.empty()) moment.tread = {median(std::move(across)), median(std::move(along))};
 }
 
 Moment measure_moment(const model::Character& character, const model::Clip* clip, double time, double end,
@@ -83,21 +85,34 @@ Moment measure_moment(const model::Character& character, const model::Clip* clip
     return moment;
 }
 
-// What feet do that carry somebody: all go one way. Moments in the air don't count.
+// The middle one, each counted as often as its weight says.
+float weighted_median(std::vector<std::pair<float, double>> values) {
+    std::ranges::sort(values);
+    double total = 0, before = 0;
+    for (const auto& [value, weight] : values) total += weight;
+    for (const auto& [value, weight] : values)
+        if ((before += weight) >= 0.5 * total) return value;
+    return 0;
+}
+
+// What feet do that carry somebody: most of the time they go one way. Moments in the air don't count, and a flat foot
+// counts for more than a toe.
 glm::vec2 steady_tread(const std::vector<Moment>& moments, const BodyMotion& motion) {
-    constexpr float steadiness = 0.6f;  // of feet that go back, a little forward as they roll
+    constexpr double steadiness = 0.6;  // of the weight; else a foot that swings forward is low too
     const float grounded = motion.floor() + contact_share * motion.height();
-    std::vector<glm::vec2> treads;
-    for (const Moment& moment : std::span(moments).first(moments.size() - 1))  // the last is the first again
-        if (moment.box.min.y <= grounded) treads.push_back(moment.tread);
-    const glm::vec2 sum = std::accumulate(treads.begin(), treads.end(), glm::vec2(0.0f));
-    float ways = 0;
-    for (const glm::vec2& tread : treads) ways += glm::length(tread);
-    if (!(glm::length(sum) > steadiness * ways)) return glm::vec2(0.0f);
-    const glm::vec2 way = glm::normalize(sum);
-    std::vector<float> speeds;
-    for (const glm::vec2& tread : treads) speeds.push_back(glm::dot(tread, way));
-    return median(std::move(speeds)) * way;
+    std::vector<std::pair<float, double>> across, along;
+    for (const Moment& moment : std::span(moments).first(moments.size() - 1)) {  // the last is the first again
+        if (moment.box.min.y > grounded) continue;
+        across.emplace_back(moment.tread.x, moment.treading);
+        along.emplace_back(moment.tread.y, moment.treading);
+    }
+    const glm::vec2 tread(weighted_median(across), weighted_median(along));
+    double all = 0, with_it = 0;
+    for (std::size_t i = 0; i < along.size(); ++i) {
+        all += along[i].second;
+        if (glm::dot(tread, {across[i].first, along[i].first}) > 0) with_it += along[i].second;
+    }
+    return with_it > steadiness * all ? tread : glm::vec2(0.0f);
 }
 
 double liveliness_of(const std::vector<Moment>& moments, float height) {
@@ -243,14 +258,12 @@ float BodyMotion::height() const {
 }
 
 float BodyMotion::floor() const {
-    float lowest = boxes.front().min.y;
-    for (const motion::Bounds& box : boxes) lowest = std::min(lowest, box.min.y);
-    return lowest;
-}
-
-std::size_t BodyMotion::tallest() const {
-    const auto found = std::ranges::max_element(boxes, {}, [](const motion::Bounds& box) { return box.size().y; });
-    return static_cast<std::size_t>(found - boxes.begin());
+    constexpr double below = 0.3;  // of the moments
+    std::vector<float> lowest;
+    for (const motion::Bounds& box : boxes) lowest.push_back(box.min.y);
+    const auto found = lowest.begin() + static_cast<std::ptrdiff_t>(below * static_cast<double>(lowest.size()));
+    std::ranges::nth_element(lowest, found);
+    return *found;
 }
 
 bool BodyMotion::is_loop() const {
@@ -293,7 +306,7 @@ BodyMotion measure_motion(const model::Character& character, const model::Clip* 
 }
 
 glm::vec2 middle_of(const model::Mesh& mesh, const std::vector<glm::vec3>& positions) {
-    constexpr double thin = 0.03;  // of the area
+    constexpr double thin = 0.1;  // of the area: a sword, a tail
     const motion::Bounds box = motion::bounds_of(positions);
     Spread across(box.min.x, box.max.x), along(box.min.z, box.max.z);
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {

@@ -20,10 +20,9 @@ struct BodyMotion {
     double liveliness = 0;              // [1/s] mean speed of the surface beside the drift, in heights
     double gap = 0;  // mean distance between its last pose and its first, in heights, without the drift
 
-    float height() const;         // median of how far the box is from bottom to top
-    float floor() const;          // lowest y
-    std::size_t tallest() const;  // the moment at which the box is highest
-    bool is_loop() const;         // ends about as it began; else it sits down, stands up or falls
+    float height() const;  // median of how far the box is from bottom to top
+    float floor() const;   // lowest y, but for moments in which a toe dips deeper: three in ten at most
+    bool is_loop() const;  // ends about as it began; else it sits down, stands up or falls
     // [units/s] x, z: how fast the ground would have to go back under the feet; 0 if nothing says that it should.
     glm::vec2 gait() const;
 };
@@ -31,7 +30,7 @@ struct BodyMotion {
 // `clip` null: the rest pose. `most_moments` >= 2: fewer are measured of short clips. All zero without vertices.
 BodyMotion measure_motion(const model::Character& character, const model::Clip* clip, std::size_t most_moments);
 
-// x, z of the middle of what a surface covers of the ground: halfway between the edges beyond which 3 % of its area
+// x, z of the middle of what a surface covers of the ground: halfway between the edges beyond which 10 % of its area
 // lie on either side. Of no surface: 0.
 glm::vec2 middle_of(const model::Mesh& mesh, const std::vector<glm::vec3>& positions);
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <vector>
 
@@ -113,6 +114,45 @@ TEST(Settle, RunnersWhoOnlyWalkGoAtTheirWalksSpeed) {
     EXPECT_NEAR(Settled(stick).casting.member.gait_speed[static_cast<int>(Role::runner)], 1, 0.01f);
 }
 
+// Each foot goes back for half the time, as fast as the ground does, and is high while it comes forward.
+model::Character stepper(float step, double duration) {
+    model::Character stick = tests::make_stick();
+    for (const auto joint : {tests::stick_leg_l, tests::stick_leg_r}) {
+        const float x = joint == tests::stick_leg_l ? 0.02f : -0.18f;
+        tests::add_box(stick.mesh, {x, 0, -0.08f}, {x + 0.16f, 0.01f, 0.08f}, joint);  // a sole
+    }
+    tests::add_sway(stick, "Idle", 0);
+    tests::add_clip(stick, "Walk", duration, [step](float s) {
+        const auto leg = [step](float share) {
+            share -= std::floor(share);
+            return share < 0.5f ? std::asin(step * (1 - 4 * share) / 2 / tests::stick_hip_height) : 1.3f;
+        };
+        const float down = std::min(std::fabs(leg(s)), std::fabs(leg(s + 0.5f)));
+        return tests::StickPose{{0, -tests::stick_hip_height * (1 - std::cos(down)), 0}, leg(s), leg(s + 0.5f)};
+    });
+    return stick;
+}
+
+float walking_speed(const model::Character& character) {
+    return Settled(character).casting.member.gait_speed[static_cast<int>(Role::walker)];
+}
+
+TEST(Settle, WhatHangsDownDoesntSlowTheFeet) {
+    model::Character walker = stepper(0.5f, 1);
+    EXPECT_NEAR(walking_speed(walker), 1, 0.05f);
+    tests::add_box(walker.mesh, {-0.3f, 0.01f, -0.2f}, {0.3f, 1.4f, -0.15f}, tests::stick_hips);  // a cape
+    EXPECT_NEAR(walking_speed(walker), 1, 0.05f) << "with a cape";
+}
+
+TEST(Settle, ALegThatDipsBelowTheGroundForAMomentLiftsNobody) {
+    model::Character stick = tests::make_stick();
+    tests::add_clip(stick, "Idle", 2, [](float s) {
+        return tests::StickPose{{0, s > 0.4f && s < 0.5f ? -0.3f : 0, 0}};
+    });
+    for (const double share : {0.1, 0.3, 0.7})
+        EXPECT_NEAR(Settled(stick).box(Role::spectator, share).min.y, 0, millimetre) << share;
+}
+
 TEST(Settle, WhoWandersAboutStaysAtHome) {
     model::Character stick = tests::make_stick();
     tests::add_sway(stick, "Idle", 5);
@@ -201,7 +241,7 @@ TEST(Settle, RefusesWhatIsInOnePoint) {
 TEST(BodyMotion, ThinPartsDontMoveTheMiddle) {
     model::Character knight = tests::make_stick();
     const glm::vec2 without = scene::middle_of(knight.mesh, tests::posed(knight, nullptr, 0));
-    tests::add_box(knight.mesh, {0, 1.2f, 0}, {0.01f, 1.21f, 2.0f}, tests::stick_hips);  // a spear
+    tests::add_box(knight.mesh, {0, 1.2f, 0.1f}, {0.02f, 1.25f, 2.0f}, tests::stick_hips);  // a sword
     EXPECT_NEAR(scene::middle_of(knight.mesh, tests::posed(knight, nullptr, 0)).y, without.y, 0.05f);
 }
 
