@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scene/body_motion.h"
+#include "scene/clip_words.h"
 #include "scene/person.h"
 
 namespace scene {
@@ -178,11 +179,44 @@ std::optional<float> speed_of(const BodyMotion& motion, const Frame& frame) {
     return speed >= slowest && speed <= fastest ? std::optional(speed) : std::nullopt;
 }
 
+// The same clip, but so many times as long.
+model::Clip slowed(const model::Clip& clip, float factor) {
+    model::Clip slow = clip;
+    slow.name += ", slowed";
+    slow.duration *= static_cast<double>(factor);
+    for (model::Channel& channel : slow.channels) {
+        for (float& time : channel.times) time *= factor;
+        if (channel.interpolation != model::Interpolation::cubic_spline || channel.times.empty()) continue;
+        const std::size_t part = channel.values.size() / channel.times.size() / 3;
+        for (std::size_t i = 0; i < channel.values.size(); ++i)
+            if (i / part % 3 != 1) channel.values[i] /= factor;  // tangents are per second
+    }
+    return slow;
+}
+
 void set_gaits(CastMember& member, const std::vector<Baked>& all, const Frame& frame) {
     for (const Role role : {Role::walker, Role::runner}) {
         const BodyMotion& motion = all[member.acts[static_cast<int>(role)].calm.front()].motion;
         if (const auto speed = speed_of(motion, frame)) member.gait_speed[static_cast<int>(role)] = *speed;
     }
+}
+
+// Gives who walks faster than anybody does a slower clip of their own to walk by, so that their feet don't slide
+// either. Returns whether it did.
+bool stroll(model::Character& character, Casting& casting) {
+    constexpr float fastest_walk = 2.2f;  // [m/s] beyond it people run
+    CastMember& member = casting.member;
+    float& speed = member.gait_speed[static_cast<int>(Role::walker)];
+    if (casting.clips.empty() || speed <= fastest_walk) return false;
+    std::uint8_t& walk = member.acts[static_cast<int>(Role::walker)].calm.front();
+    const model::Clip& fast = character.clips[static_cast<std::size_t>(casting.clips[walk])];
+    if (!distance(Deed::walk, fast.name)) return false;
+    model::Clip slow = slowed(fast, speed / fastest_walk);
+    walk = static_cast<std::uint8_t>(casting.clips.size());
+    casting.clips.push_back(static_cast<int>(character.clips.size()));
+    character.clips.push_back(std::move(slow));
+    speed = fastest_walk;
+    return true;
 }
 
 double area_of(const model::Mesh& mesh, const std::vector<glm::vec3>& positions) {
@@ -249,14 +283,15 @@ void move_root(const BodyMotion& motion, const std::vector<glm::vec3>& offsets, 
 void settle(model::Character& character, Casting& casting, double turn) {
     add_stills(character, casting);
     casting.stills.clear();
-    const std::vector<Baked> all = measure_all(character, casting);
+    std::vector<Baked> all = measure_all(character, casting);
     const auto angle = static_cast<float>(turn * pi / 180);
     const Frame frame{settled_height / size_of(all.front().motion),
                       glm::mat3(glm::rotate(glm::mat4(1.0f), angle, glm::vec3(0, 1, 0)))};
+    if (!casting.clips.empty()) set_gaits(casting.member, all, frame);
+    if (stroll(character, casting)) all = measure_all(character, casting);
     std::vector<std::vector<glm::vec3>> offsets;
     for (const Baked& one : all) offsets.push_back(staying(one.motion, frame));
     if (casting.member.sits) take_seats(character, casting.member, all, frame, offsets);
-    if (!casting.clips.empty()) set_gaits(casting.member, all, frame);
     scale_bind_pose(character, all.front(), frame);
     add_root(character, frame, offsets.front().front());
     for (std::size_t i = 0; i < all.size(); ++i)

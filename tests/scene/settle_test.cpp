@@ -144,6 +144,27 @@ TEST(Settle, WhatHangsDownDoesntSlowTheFeet) {
     EXPECT_NEAR(walking_speed(walker), 1, 0.05f) << "with a cape";
 }
 
+TEST(Settle, AWalkIsNoRun) {
+    model::Character stick = idler();
+    stick.clips.pop_back();
+    tests::add_gait(stick, "Walk", 1, 0.4f, {0, 0, 5});
+    model::Channel& hips = stick.clips.back().channels.front();
+    hips.interpolation = model::Interpolation::cubic_spline;
+    hips.times = {0, 1};
+    hips.values = {0, 0, 0, 0, 0.9f, 0, 0, 1, 9, 0, 1, 1, 0, 0.9f, 5, 0, 0, 0};
+    const Settled fast(stick);
+    EXPECT_FLOAT_EQ(fast.casting.member.gait_speed[static_cast<int>(Role::walker)], 2.2f);
+    EXPECT_NEAR(fast.clip(Role::walker)->duration, 5 / 2.2, 0.02) << "feet slide";
+    EXPECT_NEAR(fast.casting.member.gait_speed[static_cast<int>(Role::runner)], 5, 0.03f) << "who runs may";
+    for (const double share : {0.1, 0.25, 0.6, 0.9}) {
+        const std::vector<glm::vec3> slow = fast.at(Role::walker, share), quick = fast.at(Role::runner, share);
+        for (std::size_t i = 0; i < slow.size(); ++i)
+            EXPECT_LT(glm::distance(slow[i], quick[i]), 0.03f) << "another motion at " << share;
+    }
+    stick.clips.back().name = "Run";
+    EXPECT_NEAR(walking_speed(stick), 5, 0.03f) << "who has only a run runs";
+}
+
 TEST(Settle, ALegThatDipsBelowTheGroundForAMomentLiftsNobody) {
     model::Character stick = tests::make_stick();
     tests::add_clip(stick, "Idle", 2, [](float s) {
