@@ -128,7 +128,7 @@ private:
         return renderer.read_image();
     }
 
-    // Points as fine as the picture, or all there are.
+    // Points finer than the picture, or all there are.
     void represent(bool as_mesh, render::Frame& frame, render::Person& person) const {
         const figures::Way& way = figures::natively();
         const auto found = std::ranges::find_if(way.representations, [&](const figures::Representation& one) {
@@ -142,7 +142,8 @@ private:
         if (!finest.by_ones) return;
         const float pixels = scale() * frame.view.pixels_per_metre(person.depth);
         const float demand = render::SelectOptions{}.density * poses().area * pixels * pixels;
-        const figures::Part part = figures::part_of(finest, demand);
+        constexpr float dense = 4;  // so that there is no gap between points to tell from one in the surface
+        const figures::Part part = figures::part_of(finest, dense * demand);
         person.count = part.count;
         person.last_share = part.last_share;
         frame.splat_size = std::max(1.0, std::sqrt(static_cast<double>(demand) / part.count));

@@ -282,12 +282,14 @@ private:
 };
 
 void show_gallery(const StadiumOptions& options) {
+    constexpr std::size_t fine_points = 16384;  // one a pixel of a picture
     OutputFile file(options.png);
     const Gallery gallery = draw_gallery(options.characters, {.seed = options.seed,
                                                               .cache = PointCache(options.cache),
                                                               .way = figures::natively(),
                                                               .strict = options.strict,
-                                                              .verbose = options.verbose});
+                                                              .verbose = options.verbose,
+                                                              .fewest_points = fine_points});
     write_png(file, gallery.sheet);
     if (gallery.failed > 0)
         throw std::runtime_error(std::to_string(gallery.failed) + " of " + std::to_string(options.characters.size()) +

@@ -23,9 +23,8 @@ namespace apps {
 namespace {
 
 // As many as are ever drawn of a character, but enough for who is far.
-std::size_t point_count(const model::Mesh& mesh, const figures::Way& way) {
-    constexpr std::size_t fewest = 64;
-    return std::max(fewest, figures::points_worth(mesh.triangle_count(), way));
+std::size_t point_count(const model::Mesh& mesh, const Preparation& preparation) {
+    return std::max(preparation.fewest_points, figures::points_worth(mesh.triangle_count(), preparation.way));
 }
 
 // The first pose is the one that most people are seen in, where limbs are apart.
@@ -33,7 +32,7 @@ pointsample::PointModel sample_points(const model::Character& character, const s
                                       const Preparation& preparation) {
     constexpr std::size_t pose_count = 16;
     pointsample::SampleOptions options;
-    options.count = point_count(character.mesh, preparation.way);
+    options.count = point_count(character.mesh, preparation);
     options.seed = preparation.seed;
     throw_if_interrupted();
     const std::vector<pointsample::PosedMesh> poses = pointsample::spread_poses(character, clips, pose_count);

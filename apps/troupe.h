@@ -54,6 +54,7 @@ struct Preparation {
     const figures::Way& way;                     // a character gets as many points as serve where they are drawn so
     bool strict = false;                         // a file of which anything would be lost is refused
     bool verbose = false;                        // what a file's character does in its roles is said on stderr
+    std::size_t fewest_points = 64;              // of a character, however few triangles it has
     std::size_t byte_budget = pose_byte_budget;  // [bytes] for the poses of each, vertices and points together
 
     // [bytes] For all characters of a crowd; what a device holds is twice that.

@@ -3,6 +3,7 @@
 #include <stb_image.h>
 
 #include <array>
+#include <cstdlib>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -61,6 +62,23 @@ TEST(Gallery, DrawsEachFileInARowOfItsOwn) {
     EXPECT_GT(three.height, 2 * one.height);
     const int row = (three.height - one.height) / 2;
     for (int i = 0; i < 3; ++i) EXPECT_EQ(three.inked(i * row, (i + 1) * row), one.inked(0, row)) << i;
+}
+
+// Of few triangles too: a row has front as triangles and as points first.
+TEST(Gallery, PointsLookLikeTheTriangles) {
+    constexpr int left = 4, top = 32, width = 100, height = 150;  // [px] of the first picture
+    const tests::Directory directory;
+    ASSERT_EQ(draw(statue(directory, "statue.obj"), directory / "sheet.png").code, 0);
+    const Sheet sheet(directory / "sheet.png");
+    ASSERT_GE(sheet.height, top + height);
+    int off = 0;
+    for (int y = top; y < top + height; ++y) {
+        for (int x = left; x < left + width; ++x) {
+            const auto at = [&](int from) { return sheet.pixels[std::size_t{3} * (y * sheet.width + from) + 2]; };
+            off += std::abs(at(x) - at(x + width)) > 24;
+        }
+    }
+    EXPECT_LT(off, width * height / 50);
 }
 
 TEST(Gallery, IsTheSameEveryTime) {
