@@ -265,7 +265,6 @@ HWY_NOINLINE void add_emission(const RichShading& s, VFloat second, VFloat third
 
 // `second`, `third`: how much of those corners each sample is.
 void shade(const RichShading& s, VFloat second, VFloat third, FloatMask mask, const Block& block, int lane) {
-    const Floats f;
     // Outside of the triangle nothing is promised of the numbers below.
     second = hn::IfThenElseZero(mask, second);
     third = hn::IfThenElseZero(mask, third);

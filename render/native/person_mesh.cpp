@@ -49,7 +49,8 @@ std::vector<std::uint32_t> paint_numbers(const model::Mesh& mesh, std::vector<Pa
 
 // Of a material, among those that are known; added if it isn't.
 std::uint16_t number_of(const model::Material& material, std::vector<Texturing>& known) {
-    Texturing wanted{.alpha_cutoff = material.alpha_cutoff};
+    Texturing wanted;
+    wanted.alpha_cutoff = material.alpha_cutoff;
     if (material.texture != model::no_texture) {
         wanted.layer = material.texture;
         wanted.sampler = material.sampler;

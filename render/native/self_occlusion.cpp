@@ -330,7 +330,8 @@ int pieces_along(const model::Mesh& mesh) {
     std::size_t cut = 0;
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
         cut += model::material_of_triangle(mesh, t).alpha_cutoff > 0;
-    return static_cast<int>(std::clamp(std::sqrt(all_pieces / std::max<double>(1, cut)), 1.0, most_along));
+    return static_cast<int>(
+        std::clamp(std::sqrt(all_pieces / std::max(1.0, static_cast<double>(cut))), 1.0, most_along));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ protected:
     void SetUp() override {
         for (const char* folder : {"tools", "tmp", "root/scripts", "root/build/release/bin", "elsewhere"})
             fs::create_directories(directory_ / folder);
-        for (const char* script : {"scripts/setup", "demo", "test", "bench"})
+        for (const char* script : {"scripts/setup", "scripts/bundle", "demo", "test", "bench"})
             fs::copy_file(fs::path(GRANDSTAND_SOURCE) / script, directory_ / ("root/" + std::string(script)));
         // All that the scripts may find, besides what a test adds.
         for (const std::string tool : {"cat", "dirname", "env", "grep", "id", "mkdir", "mktemp", "rm", "tail", "tr"})
@@ -67,6 +67,34 @@ TEST_F(Scripts, SetupInstallsWhatIsMissingAndSaysWhenThatFails) {
     EXPECT_NE(outcome.out.find("Installing: libglm-dev\n"), std::string::npos) << outcome.out;
     EXPECT_NE(outcome.out.find("apt-get install -y --no-install-recommends libglm-dev\n"), std::string::npos);
     EXPECT_NE(outcome.out.find("apt-get failed"), std::string::npos) << outcome.out;
+}
+
+class BundleScript : public Scripts {
+protected:
+    void SetUp() override {
+        Scripts::SetUp();
+        stand_in("root/build/release/bin/stadium", "");
+        stand_in("tools/strip", "cp \"$3\" \"$2\"");
+        stand_in("tools/ldd",
+                 "echo 'libc.so.6 => /lib/libc.so.6 (0x1)'; echo \"own.so => " + (directory_ / "own.so") + "\"");
+        for (const std::string tool : {"awk", "cp", "find", "mv", "sort", "xargs"})
+            fs::create_symlink("/usr/bin/" + tool, directory_ / ("tools/" + tool));
+        stand_in("tools/tar", "cd \"$2\" && find bin lib -type f >\"$4\"");
+    }
+};
+
+TEST_F(BundleScript, PacksProgramsAndTheirLibrariesButNotTheSystems) {
+    stand_in("own.so", "");
+    const tests::Outcome outcome = call("scripts/bundle", "packed");
+    EXPECT_EQ(outcome.code, 0) << outcome.out;
+    EXPECT_EQ(tests::read_file(directory_ / "elsewhere/packed"), "bin/stadium\nlib/own.so\n");
+}
+
+TEST_F(BundleScript, LeavesNothingWhereSomethingIsMissing) {
+    EXPECT_NE(call("scripts/bundle", "packed stadium nonesuch").code, 0);
+    EXPECT_NE(call("scripts/bundle", "packed").code, 0) << "a library is missing";
+    EXPECT_EQ(call("scripts/bundle").code, 2);
+    EXPECT_TRUE(fs::is_empty(directory_ / "elsewhere"));
 }
 
 // What is only tested with is neither installed nor built for a picture.
