@@ -15,8 +15,8 @@ void main() {
     // No splat outgrows the person it stands for.
     float whole_person = Figure.box_size.w * placement.w * Frame.splat.y / gl_Position.w;
     gl_PointSize = clamp(whole_person, 1.0, Frame.splat.x);
-    // The far side of a closed body is hidden by the near side: drop it before it costs pixels.
     gl_Position.xy *= Frame.splat.zw;
+    // The far side of a closed body is hidden by the near side: drop it before it costs pixels.
     if (away && look == 0u && !is_double_sided()) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
     vec3 sent = own_color * lit(away ? -normal : normal);
 #ifdef OWN_LIGHT

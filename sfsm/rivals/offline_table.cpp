@@ -13,6 +13,10 @@ namespace {
 
 constexpr double share_of_new = 0.125;  // of a time, in the gain
 
+double detail_at(int step) {
+    return least_detail + (1 - least_detail) * step / offline_steps;
+}
+
 class OfflineTable final : public OneKnob {
 public:
     explicit OfflineTable(std::vector<double> costs_ms) : costs_ms_(std::move(costs_ms)) {}
@@ -24,24 +28,18 @@ private:
         turn_to(finest_within(budget_ms), "the finest step that fits");
     }
 
-    std::size_t last() const { return costs_ms_.size() - 1; }
-
-    double detail_at(std::size_t step) const {
-        return least_detail + (1 - least_detail) * static_cast<double>(step) / static_cast<double>(last());
-    }
-
     double cost_ms(double detail) const {
-        const double place = (detail - least_detail) / (1 - least_detail) * static_cast<double>(last());
-        return costs_ms_[static_cast<std::size_t>(std::clamp(std::round(place), 0.0, static_cast<double>(last())))];
+        const double place = (detail - least_detail) / (1 - least_detail) * offline_steps;
+        return costs_ms_[static_cast<std::size_t>(std::clamp<double>(std::round(place), 0, offline_steps))];
     }
 
     double finest_within(double budget_ms) const {
-        for (std::size_t step = last(); step > 0; --step)
-            if (costs_ms_[step] <= budget_ms) return detail_at(step);
+        for (int step = offline_steps; step > 0; --step)
+            if (costs_ms_[static_cast<std::size_t>(step)] <= budget_ms) return detail_at(step);
         return least_detail;
     }
 
-    std::vector<double> costs_ms_;
+    std::vector<double> costs_ms_;  // by step
     double log_gain_ = 0;
 };
 
@@ -49,8 +47,7 @@ private:
 
 std::unique_ptr<Controller> make_offline_table(const std::function<double(double detail)>& cost_ms) {
     std::vector<double> costs_ms;
-    for (int step = 0; step <= offline_steps; ++step)
-        costs_ms.push_back(cost_ms(least_detail + (1 - least_detail) * step / offline_steps));
+    for (int step = 0; step <= offline_steps; ++step) costs_ms.push_back(cost_ms(detail_at(step)));
     return std::make_unique<OfflineTable>(std::move(costs_ms));
 }
 

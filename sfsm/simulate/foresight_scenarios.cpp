@@ -21,6 +21,10 @@ constexpr Foresight all_by(double factor) {
     return {factor, factor, factor, factor};
 }
 
+double hundredfold(std::int64_t) {
+    return 100;
+}
+
 }  // namespace
 
 Scenario forecast_half() {
@@ -68,7 +72,7 @@ Scenario correlated_forecast() {
 // A software renderer: what is believed of prices at first is far too low.
 Scenario slow_machine() {
     Scenario scenario = work_scenario("one view, all prices 100 times as high, target 1667 ms, with forecast", {wide},
-                                      only_view, {.load = [](std::int64_t) { return 100.0; }});
+                                      only_view, {.load = hundredfold});
     scenario.target = TargetSchedule::parse("1667");
     scenario.steady = {{200, 1800}};
     return scenario;
@@ -77,7 +81,7 @@ Scenario slow_machine() {
 // Even the coarsest drawing is too slow, and what is learned depends on what the first frames met.
 Scenario out_of_reach() {
     Scenario scenario = work_scenario("no drawing meets the target: a third of the least; 10 % noise, with forecast",
-                                      {wide}, only_view, {.load = [](std::int64_t) { return 100.0; }});
+                                      {wide}, only_view, {.load = hundredfold});
     scenario.target = TargetSchedule::parse("100");
     scenario.noise = 0.1;
     scenario.steady = {{200, 1800}};
@@ -88,8 +92,7 @@ Scenario out_of_reach() {
 Scenario out_of_reach_untold() {
     Scenario scenario = out_of_reach();
     scenario.about = "out-of-reach without a forecast";
-    scenario.plant =
-        work_scenario("", {wide}, only_view, {.load = [](std::int64_t) { return 100.0; }, .is_silent = true}).plant;
+    scenario.plant = work_scenario("", {wide}, only_view, {.load = hundredfold, .is_silent = true}).plant;
     return scenario;
 }
 

@@ -46,14 +46,6 @@ Scenario interrupted(const char* about, std::vector<Interruption> interruptions)
 
 }  // namespace
 
-std::vector<LoadStep> there_and_back() {
-    return {{episode, true}, {{episode.end, episode_frames}, false}};
-}
-
-std::vector<Frames> around_episode() {
-    return {{200, 600}, {800, 1200}, {1400, 1800}};
-}
-
 double constant_load(std::int64_t) {
     return 1;
 }

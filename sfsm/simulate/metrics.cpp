@@ -96,9 +96,10 @@ double worst_second(std::span<const Outcome> judged) {
     return worst;
 }
 
-double quality(const Course& course, std::span<const Outcome> outcomes) {
+// Of the frames from `first` on.
+double quality(const Course& course, std::span<const Outcome> outcomes, std::int64_t first) {
     double detail = 0, best = 0;
-    for (std::int64_t frame = course.scenario.statistics_from; frame < std::ssize(outcomes); ++frame) {
+    for (std::int64_t frame = first; frame < std::ssize(outcomes); ++frame) {
         if (is_interrupted(course.scenario, frame)) continue;
         detail += at(outcomes, frame).detail;
         best += course.best[static_cast<std::size_t>(frame)].detail;
@@ -222,18 +223,15 @@ std::optional<double> regain(const Course& course, std::span<const Outcome> outc
 
 bool is_stuck(const Course& course, std::span<const Outcome> outcomes) {
     constexpr std::int64_t last = 600;
+    const std::int64_t first = std::max<std::int64_t>(0, std::ssize(outcomes) - last);
     std::int64_t judged = 0, over = 0;
-    double detail = 0, best = 0;
-    for (std::int64_t frame = std::max<std::int64_t>(0, std::ssize(outcomes) - last); frame < std::ssize(outcomes);
-         ++frame) {
-        if (is_interrupted(course.scenario, frame)) continue;
-        detail += at(outcomes, frame).detail;
-        best += course.best[static_cast<std::size_t>(frame)].detail;
+    for (std::int64_t frame = first; frame < std::ssize(outcomes); ++frame) {
         if (!is_judged(course, frame)) continue;
         ++judged;
         over += is_over(at(outcomes, frame)) ? 1 : 0;
     }
-    return 2 * over > judged || 2 * detail < best;
+    const double kept = quality(course, outcomes, first);  // 0: nothing is to be kept
+    return 2 * over > judged || (kept > 0 && kept < 0.5);
 }
 
 double mean_ms(const Scenario& scenario, std::span<const Outcome> outcomes) {
@@ -312,7 +310,7 @@ Metrics measure_due(const Course& course, std::span<const Outcome> outcomes) {
     const std::vector<Outcome> judged = judged_frames(course, outcomes);
     measure_shares(metrics, judged);
     metrics.worst_second = worst_second(judged);
-    metrics.quality = quality(course, outcomes);
+    metrics.quality = quality(course, outcomes, course.scenario.statistics_from);
     measure_settling(metrics, course.scenario, outcomes);
     metrics.overshoot_pct = overshoot_pct(course, outcomes);
     measure_rest(metrics, course.scenario, outcomes);

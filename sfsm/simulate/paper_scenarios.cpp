@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "sfsm/simulate/catalogue.h"
+#include "sfsm/simulate/episode.h"
 #include "sfsm/simulate/paper_crowd.h"
 #include "sfsm/simulate/work_plant.h"
 
@@ -9,7 +10,6 @@ namespace sfsm::simulate {
 namespace {
 
 constexpr double low_noise = 0.005;
-constexpr double usual_noise = 0.03;
 
 // Of the second experiment the paper reports the control rates alone. The people in view are ours, such that without
 // control (state 0 throughout) it is the paper's 69.7 % at 95 ms, and so are their distances.

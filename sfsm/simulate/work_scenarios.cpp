@@ -4,20 +4,15 @@
 #include <utility>
 
 #include "sfsm/simulate/catalogue.h"
+#include "sfsm/simulate/episode.h"
 
 namespace sfsm::simulate {
 namespace {
-
-constexpr double usual_noise = 0.03;  // the toy check's
 
 // A desktop of today: a thousand million triangles a second, fewer points, baked poses.
 constexpr Prices desktop{1.5, {/* person */ 2e-5, /* triangle */ 1e-6, /* point */ 1.4e-6, /* update */ 4e-4}};
 
 constexpr std::int64_t pouring = 30;
-constexpr std::int64_t episode_frames = 1800;
-constexpr Frames episode{600, 1200};
-const std::vector<LoadStep> there_and_back = {{episode, true}, {{episode.end, episode_frames}, false}};
-const std::vector<Frames> around_episode = {{200, 600}, {800, 1200}, {1400, 1800}};
 
 }  // namespace
 
@@ -52,7 +47,7 @@ Scenario work_scenario(const char* about, std::vector<View> views, WorkPlant::Vi
     scenario.plant = std::make_shared<WorkPlant>(desktop, std::move(views), std::move(view_at), std::move(unforeseen));
     scenario.noise = usual_noise;
     scenario.frames = episode_frames;
-    scenario.steady = around_episode;
+    scenario.steady = around_episode();
     return scenario;
 }
 
@@ -83,7 +78,7 @@ Scenario quiet_forecast() {
 Scenario target_step_forecast() {
     Scenario scenario = work_scenario("the target steps, with forecast", {wide}, only_view);
     scenario.target = TargetSchedule::parse("16,10@600,16@1200");
-    scenario.steps = there_and_back;
+    scenario.steps = there_and_back();
     return scenario;
 }
 
@@ -106,7 +101,7 @@ Scenario crowd_pours_in() {
     };
     Scenario scenario =
         work_scenario("twice the people within half a second, for a third, with forecast", std::move(views), here);
-    scenario.steps = there_and_back;
+    scenario.steps = there_and_back();
     return scenario;
 }
 
@@ -114,7 +109,7 @@ Scenario crowd_pours_in() {
 Scenario throttled() {
     Scenario scenario = work_scenario("for a third, all prices are 1.4 times as high, with forecast", {wide}, only_view,
                                       {.load = [](std::int64_t frame) { return episode.contains(frame) ? 1.4 : 1.0; }});
-    scenario.steps = there_and_back;
+    scenario.steps = there_and_back();
     return scenario;
 }
 

@@ -494,7 +494,7 @@ Drawn draw(TileScene& scene, const Lens& lens, const std::vector<std::array<glm:
            bool double_sided) {
     std::vector<WideTriangle> triangles;
     for (const auto& place : places)
-        append_clipped(lens.placed(place, 1), lens.center_x, lens.center_y, double_sided, {untextured}, triangles);
+        append_clipped(lens.placed(place, 1), lens.center_x, lens.center_y, double_sided, {}, triangles);
     scene.layer.begin(scene.tile, scene.behind);
     fill(TextureLayers(), triangles, scene.layer);
     Drawn out;
