@@ -15,6 +15,8 @@ constexpr PriceBelief belief{1 + detail_steps, {1, 1, 1, 1, 1, 1, 1, 1, 1}, 0.7,
 
 constexpr double much_over = 1.03;          // [aim] at which a rise has failed
 constexpr double out_of_reach_band = 0.05;  // over the aim, relative
+constexpr double retested_share = 0.5;      // of the detail
+constexpr double least_retested = 0.1;      // detail
 
 Amounts amounts_of(double detail) {
     Amounts amounts;
@@ -30,14 +32,34 @@ Amounts amounts_of(double detail) {
 AxisLaw::AxisLaw(Aim& aim) : aim_(aim), costs_(belief) {}
 
 void AxisLaw::observe(const FrameSample& sample) {
-    if (aim_.range > 0) refresh_.observe(costs_, amounts_of(drawn_detail(sample.decision)), sample.ms, aim_.target_ms);
+    if (aim_.range <= 0) return;
+    const Drawn drawn = drawn_as(sample.decision);
+    const Amounts amounts = amounts_of(drawn.detail);
+    if (drawn.is_retest) return hear_retest(amounts, sample.ms);
+    retest_.observe(sample.ms);
+    refresh_.observe(costs_, amounts, sample.ms, aim_.target_ms);
+}
+
+// The model would take these times for another load. So they are kept from it, unless they prove its prices wrong.
+void AxisLaw::hear_retest(const Amounts& amounts, double ms) {
+    const double residual = std::log(ms) - costs_.predict(amounts).log_ms;
+    if (retest_.has_disproved(residual, costs_.noise())) costs_.relearn(amounts, ms);
 }
 
 void AxisLaw::decide() {
     if (costs_.is_ready()) turn();
-    const Decision decision = decision_at(detail_, aim_.range);
-    if (drawn_count_ == 0 || decision != aim_.status.decision) remember(decision);
-    aim_.status.decision = decision;
+    Drawn drawn = next_drawn();
+    drawn.decision = decision_at(drawn.detail, aim_.range);
+    if (drawn_count_ == 0 || drawn.decision != aim_.status.decision) remember(drawn);
+    aim_.status.decision = drawn.decision;
+}
+
+// Where the target is out of reach, the detail that is kept is believed to cost little.
+AxisLaw::Drawn AxisLaw::next_drawn() {
+    const bool is_given_up = costs_.is_ready() && detail_ > least_retested && predicted_ms(0) > aim_.target_ms;
+    if (!retest_.step(is_given_up, costs_.shifts())) return {{}, detail_, false};
+    aim_.status.reason = "out of reach: is less detail still in vain?";
+    return {{}, retested_share * detail_, true};
 }
 
 void AxisLaw::turn() {
@@ -84,17 +106,17 @@ double AxisLaw::detail_for(double ms) const {
     return 1;
 }
 
-double AxisLaw::drawn_detail(const Decision& decision) const {
+AxisLaw::Drawn AxisLaw::drawn_as(const Decision& decision) const {
     for (std::size_t i = 0; i < drawn_count_; ++i) {
-        if (drawn_[i].decision == decision) return drawn_[i].detail;
+        if (drawn_[i].decision == decision) return drawn_[i];
     }
     const double detail = detail_of(decision, aim_.range);
-    return std::isfinite(detail) ? detail : 1;
+    return {decision, std::isfinite(detail) ? detail : 1};
 }
 
-void AxisLaw::remember(const Decision& decision) {
+void AxisLaw::remember(const Drawn& drawn) {
     std::rotate(drawn_.begin(), drawn_.end() - 1, drawn_.end());
-    drawn_.front() = {decision, detail_};
+    drawn_.front() = drawn;
     drawn_count_ = std::min(drawn_count_ + 1, drawn_.size());
 }
 

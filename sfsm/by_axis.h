@@ -8,6 +8,7 @@
 #include "sfsm/aim.h"
 #include "sfsm/ceiling.h"
 #include "sfsm/refresh.h"
+#include "sfsm/retest.h"
 
 namespace sfsm {
 
@@ -28,20 +29,24 @@ private:
     struct Drawn {
         Decision decision;
         double detail = 1;
+        bool is_retest = false;
     };
 
     void turn();
+    Drawn next_drawn();
+    void hear_retest(const Amounts& amounts, double ms);
     void turn_to(double detail, double now_ms, double aim_ms);
     void turn_out_of_reach(double detail, double over_aim);
     double predicted_ms(double detail) const;
     double detail_for(double ms) const;
-    double drawn_detail(const Decision& decision) const;
-    void remember(const Decision& decision);
+    Drawn drawn_as(const Decision& decision) const;
+    void remember(const Drawn& drawn);
 
     Aim& aim_;
     CostModel costs_;  // term 0: what every frame has; then one a step of detail
     Refresh refresh_;
     Ceiling ceiling_;
+    Retest retest_;
     double detail_ = 1;
     std::array<Drawn, 16> drawn_{};  // the newest decisions; L may have moved since, so each with its detail
     std::size_t drawn_count_ = 0;

@@ -53,6 +53,14 @@ void CostModel::believe() {
     }
 }
 
+void CostModel::relearn(const Amounts& amounts, double ms) {
+    start(amounts, ms);
+    for (Vector& row : spread_) row.fill(0);
+    believe();
+    detector_.clear();
+    left_variance_ = -1;
+}
+
 void CostModel::nudge(double log_gain) {
     state_[0] += log_gain;
     limit();

@@ -46,6 +46,10 @@ public:
     // loading screen or a dragged window. It is not believed before the eighth in a row.
     void observe(const Amounts& amounts, double ms);
 
+    // What was learned of the prices has proved wrong: they are believed as at first, and a frame of these amounts to
+    // have taken `ms`. Noise and tail stay.
+    void relearn(const Amounts& amounts, double ms);
+
     // Means nothing before is_ready().
     Prediction predict(const Amounts& amounts) const;
 

@@ -125,6 +125,18 @@ CostModel experienced(const Amounts& work) {
     return model;
 }
 
+TEST(CostModel, PricesThatProvedWrongAreLearnedAnew) {
+    const Amounts work = amounts(1, 2, 1), other = amounts(1, 0, 1);
+    CostModel model = experienced(work);
+    const double noise = model.noise();
+    model.relearn(work, 3);
+    EXPECT_NEAR(model.predict(work).log_ms, std::log(3), 1e-9);
+    EXPECT_NEAR(model.predict(other).log_ms, std::log(1.5), 1e-9) << "prices are equal, as at first";
+    EXPECT_GT(model.predict(other).uncertainty, 0.2);
+    EXPECT_EQ(model.noise(), noise);
+    EXPECT_TRUE(model.is_ready());
+}
+
 TEST(CostModel, TwoOutliersThatDisagreeAreNoShift) {
     const Amounts work = amounts(1, 2, 1);
     CostModel apart = experienced(work), alike = apart;

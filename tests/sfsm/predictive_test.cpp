@@ -163,6 +163,24 @@ TEST(PredictiveLaw, GivesUpOnATargetOutOfReachAndComesBack) {
     for (std::size_t i = 920; i < 1200; ++i) EXPECT_NEAR(rows[i].frame_ms, target_ms, 0.1 * target_ms) << i;
 }
 
+// For 600 frames a processor sets the pace, whatever the detail, and then it doesn't.
+TEST(PredictiveLaw, WhatBoughtNothingOnceIsTriedAgain) {
+    constexpr std::int64_t begin = 300, end = 900;
+    constexpr int longest = 400;  // frames until that is found out: a wait, a retest and the answer to it
+    for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+        std::mt19937_64 random(seed);
+        const Time bound = [&](std::int64_t frame, const Decision& decision) {
+            const double drawing = toy(detail_of(decision, test_range));
+            const bool is_bound = frame >= begin && frame < end;
+            return (is_bound ? std::max(drawing, 1.3) : drawing) * target_ms * std::exp(0.03 * normal(random));
+        };
+        const auto rows = run_knob(bound, end + longest + 100, 2);
+        int over = 0;
+        for (std::size_t i = end + longest; i < rows.size(); ++i) over += rows[i].frame_ms > 1.1 * target_ms ? 1 : 0;
+        EXPECT_LE(over, 5) << "seed " << seed;
+    }
+}
+
 TEST(PredictiveLaw, GivesDetailBackWhereItBuysNothing) {
     const Time cpu_bound = [](std::int64_t, const Decision&) { return 1.5 * target_ms; };
     const auto rows = run_knob(cpu_bound, 600, 2);

@@ -6,14 +6,14 @@
 namespace sfsm::simulate {
 namespace {
 
-constexpr int seeds = 9;
+constexpr int some_seeds = 9;
 
 Contestant the_default() {
     const std::string name(law_names().front());
     return {name, [=](const Course&) { return make_controller(name); }, false};
 }
 
-Row row_of(const char* scenario) {
+Row row_of(const char* scenario, int seeds = some_seeds) {
     ScorecardOptions options;
     options.scenarios = {make_scenario(scenario)};
     options.laws = {the_default()};
@@ -69,6 +69,11 @@ TEST(DefaultLaw, TakesWaitingForACapForNoLoad) {
         ASSERT_TRUE(row.worst.regain) << scenario;
         EXPECT_LE(*row.worst.regain, 120) << scenario;
     }
+}
+
+TEST(DefaultLaw, IsStuckInNoSeedAfterACpuBoundEpisode) {
+    for (const char* scenario : {"cpu-bound", "cpu-bound-long"})
+        EXPECT_EQ(row_of(scenario, 80).stuck_seeds, 0) << scenario;
 }
 
 TEST(DefaultLaw, KeepsItsDetailUnderHeavyTailsInEverySeed) {
