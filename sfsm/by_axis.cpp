@@ -66,7 +66,7 @@ void AxisLaw::turn() {
     const double least_ms = predicted_ms(0);
     const double aim_ms = aim_.aim_ms(costs_, least_ms, 0);
     const Prediction now = costs_.predict(amounts_of(detail_));
-    ceiling_.step(predicted_ms(ceiling_.floor()));
+    ceiling_.step(predicted_ms(ceiling_.floor()), predicted_ms(ceiling_.top()));
     const double sure_ms = aim_.aim_ms(costs_, least_ms, costs_.predict(amounts_of(detail_for(aim_ms))).uncertainty);
     const double before = detail_;
     if (least_ms > aim_.target_ms) {
@@ -82,7 +82,7 @@ void AxisLaw::turn_to(double detail, double now_ms, double aim_ms) {
     if (detail > detail_) {
         detail_ = ceiling_.rise(detail_, detail, now_ms);
     } else if (detail < detail_) {
-        detail_ = now_ms > much_over * aim_ms ? ceiling_.fall(detail_, detail) : detail;
+        detail_ = now_ms > much_over * aim_ms ? ceiling_.fall(detail_, detail, now_ms) : detail;
     }
 }
 

@@ -7,8 +7,10 @@ namespace {
 
 constexpr int trial = 24;                           // decisions that a rise is watched for
 constexpr int first_patience = 16, longest = 1024;  // decisions
+constexpr int unconfirmed = 64;                     // decisions that a ceiling lasts which may be chance
 constexpr double narrow = 0.01;                     // of detail: not worth a rise below a ceiling
 constexpr double fallen = 0.9;                      // share of the time by which load is found to have fallen
+constexpr double disproved = 0.8;                   // share of the time by which a ceiling is found not to be slow
 
 }  // namespace
 
@@ -26,25 +28,38 @@ double Ceiling::rise(double from, double to, double ms_at_from) {
     return to;
 }
 
-double Ceiling::fall(double at, double to) {
+double Ceiling::fall(double at, double to, double ms_at) {
     if (age_ > trial || at != to_ || at <= from_) return to;
-    ceiling_ = at;
-    lasts_ = longest;
+    const bool is_confirmed = failures_ > 0 ? lasts_ > unconfirmed : from_ < suspect_;
+    lasts_ = is_confirmed ? longest : unconfirmed;
+    ceiling_ = suspect_ = at;
+    top_ms_ = ms_at;
+    floor_ = from_;
+    floor_ms_ = ms_;
     wait_ = patience_;
     patience_ = std::min(2 * patience_, longest);
     // What was learned of the way may be right, but not twice wrong.
     to_ = ++failures_ == 1 ? std::max(to, from_) : std::clamp(to, from_, (from_ + at) / 2);
-    age_ = 0;
+    age_ = since_failure_ = 0;
     return to_;
 }
 
-void Ceiling::step(double ms_at_floor) {
+void Ceiling::step(double ms_at_floor, double ms_at_top) {
     if (age_ <= trial) ++age_;
+    if (since_failure_ <= trial) ++since_failure_;
     if (wait_ > 0) --wait_;
-    if (lasts_ > 0 && (--lasts_ == 0 || (age_ > trial && ms_at_floor < fallen * ms_))) forget();
+    if (lasts_ == 0) return;
+    const bool has_fallen = ms_at_floor < fallen * floor_ms_ || ms_at_top < disproved * top_ms_;
+    if (since_failure_ > trial && has_fallen) return forget();
+    if (--lasts_ == 0) lift();
 }
 
 void Ceiling::forget() {
+    lift();
+    suspect_ = 0;
+}
+
+void Ceiling::lift() {
     ceiling_ = 2;
     wait_ = lasts_ = 0;
     patience_ = first_patience;

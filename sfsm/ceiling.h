@@ -3,6 +3,8 @@
 // believes in a smooth cost would bounce across the jump for ever.
 #pragma once
 
+#include <algorithm>
+
 namespace sfsm {
 
 // For details in [0, 1] and predicted times.
@@ -10,31 +12,43 @@ namespace sfsm {
 // - The law then falls to the detail it now predicts to fit, at most back to where the rise began. If that is slow too,
 //   it falls at least half the way back.
 // - Below a ceiling a rise goes only half the way up to it. The wait before the next rise doubles with each failure.
-// - The ceiling is forgotten after 1024 decisions, or when the load has fallen.
+// - A ceiling lasts 64 decisions, as a few slow frames may have made it by chance. One that the next rise confirms,
+// from
+//   below it, lasts 1024.
+// - It is forgotten when the load has fallen: when the floor, where the rise began that made it, takes a tenth less
+//   than then; or when its own detail is predicted to take a fifth less than what was too slow.
 class Ceiling {
 public:
     // A rise that is predicted to fit: the detail to rise to, at most `to`. `from` itself: not now.
     double rise(double from, double to, double ms_at_from);
 
-    // Detail `at` is predicted slow, `to` is predicted to fit: the detail to fall to.
-    double fall(double at, double to);
+    // Detail `at` is predicted slow, to take `ms_at`; `to` is predicted to fit: the detail to fall to.
+    double fall(double at, double to, double ms_at);
 
-    // Once a decision. `ms_at_floor`: the time [ms] that is now predicted for floor().
-    void step(double ms_at_floor);
+    // Once a decision, with the times [ms] that are now predicted for floor() and top().
+    void step(double ms_at_floor, double ms_at_top);
 
-    double floor() const { return from_; }  // where the last rise began
+    double floor() const { return floor_; }
+    double top() const { return std::min(ceiling_, 1.0); }  // the ceiling; 1: there is none
 
     void forget();
 
 private:
+    void lift();
+
     double from_ = 0, to_ = 0;  // the last rise
     double ms_ = 0;             // predicted for from_ when it began
     int age_ = 1 << 20;         // [decisions] since it began
-    double ceiling_ = 2;        // a detail that failed; over 1: none has
-    int patience_ = 16;         // [decisions] to wait after the next failure
-    int wait_ = 0;              // [decisions] still to wait
-    int lasts_ = 0;             // [decisions] until the ceiling is forgotten
-    int failures_ = 0;          // of the last rise
+    int failures_ = 0;          // of it
+
+    double ceiling_ = 2;               // a detail that failed; over 1: none has
+    double top_ms_ = 0;                // predicted for it then
+    double floor_ = 0, floor_ms_ = 0;  // from_ and ms_ of the rise to it
+    double suspect_ = 0;               // the newest ceiling, even if it lasts no more; 0: none
+    int lasts_ = 0;                    // [decisions] until the ceiling is lifted
+    int since_failure_ = 0;            // [decisions]
+    int patience_ = 16;                // [decisions] to wait after the next failure
+    int wait_ = 0;                     // [decisions] still to wait
 };
 
 }  // namespace sfsm

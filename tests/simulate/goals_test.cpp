@@ -80,6 +80,16 @@ TEST(DefaultLaw, KeepsItsDetailUnderHeavyTailsInEverySeed) {
     EXPECT_GE(row_of("heavy-tail-knob").worst.quality, 0.97);
 }
 
+TEST(DefaultLaw, RegainsItsDetailWhenALoadHasFallen) {
+    for (const char* scenario : {"fallen-load", "fallen-load-stepped"}) {
+        const Row row = row_of(scenario, 30);
+        ASSERT_TRUE(row.worst.regain) << scenario;
+        EXPECT_LE(*row.worst.regain, 100) << scenario;
+    }
+    EXPECT_GE(row_of("fallen-load", 30).worst.quality, 0.97);
+    EXPECT_GE(row_of("fallen-load-stepped", 30).worst.quality, 0.93) << "a level may lie 7 % below where its cost ends";
+}
+
 TEST(DefaultLaw, HoldsAHiddenCostThatMoves) {
     const Row row = row_of("hidden-cost");
     EXPECT_GE(row.median.quality, 0.95);
