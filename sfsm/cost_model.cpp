@@ -16,6 +16,7 @@ constexpr double small_step = 0.05;                      // [ln] a residual that
 constexpr int most_turns = 6;
 constexpr double well_known = 0.5;     // [sigmas of noise] uncertainty below which a frame tells of the tail
 constexpr double heaviest = 2;         // [normal tails] no heavier one hides a shift
+constexpr int gain_life = 4096;        // [samples] after which the gain becomes the prices' own
 constexpr double gain_memory = 60;     // [samples] that the gain is averaged over
 constexpr double price_walk = 0.0003;  // [share of price and spread] a price may drift per sample
 constexpr double least_walker = 0.02;  // [first guess] a cheaper price drifts as if it cost this much
@@ -86,7 +87,7 @@ void CostModel::observe(const Amounts& amounts, double ms) {
         if (seen.log_ms < log_time(amounts, gradient)) start(amounts, ms);
     }
     recent_[static_cast<std::size_t>(samples_ % ShiftDetector::window)] = seen;
-    ++samples_;
+    if (++samples_ % gain_life == 0) fold_gain();
     forget();
     learn_noise(seen);
     const int shown = detector_.add(surprise(correct(seen)));
@@ -172,6 +173,21 @@ void CostModel::forget() {
         const double step = price_walk * believed * std::max(state_[i], least_walker);
         if (spread_[i][i] < believed * believed) spread_[i][i] += step * step;
     }
+}
+
+// Times tell only gain times price, so what is learned of one over time the other may take back, each going its way for
+// ever. The same times are predicted, with the same uncertainty, by a gain of 1 and prices that have taken it over.
+void CostModel::fold_gain() {
+    const double gain = std::exp(state_[0]);
+    for (int i = 1; i < states_; ++i) {
+        state_[i] *= gain;
+        for (int j = 0; j < states_; ++j) {
+            spread_[i][j] *= gain;
+            spread_[j][i] *= gain;
+        }
+    }
+    left_log_gain_ -= state_[0];
+    state_[0] = 0;
 }
 
 // Moves the noise a step towards the median difference between neighbours. The step doesn't depend on the difference,

@@ -83,6 +83,7 @@ private:
     bool is_strange(const Seen& seen) const;
     void limit();
     void forget();
+    void fold_gain();
     void learn_noise(const Seen& seen);
     void take_shift(int count);
     void recall(double log_gain, double variance);

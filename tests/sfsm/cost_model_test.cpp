@@ -125,6 +125,26 @@ CostModel experienced(const Amounts& work) {
     return model;
 }
 
+// Of the same times more than one gain can be believed, and with each its prices.
+TEST(CostModel, AfterThousandsOfTimesPricesTakeTheGainOver) {
+    constexpr int life = 4096;  // [times] of a gain
+    std::mt19937_64 random(6);
+    CostModel model(belief);
+    for (int i = 1; i < life; ++i) {
+        const Amounts work = any_work(random);
+        model.observe(work, renderer_ms(work, i < 300 ? 1 : 3) * std::exp(0.02 * normal(random)));
+    }
+    const Amounts work = amounts(1, 2, 1), other = amounts(1, 0.2, 3);
+    ASSERT_NEAR(model.gain(), 3, 0.5);
+    const Prediction before = model.predict(other);
+    const double price = model.gain() * model.price(1);
+    model.observe(work, std::exp(model.predict(work).log_ms));
+    EXPECT_NEAR(model.gain(), 1, 1e-3);
+    EXPECT_NEAR(model.gain() * model.price(1), price, 1e-3 * price);
+    EXPECT_NEAR(model.predict(other).log_ms, before.log_ms, 1e-3);
+    EXPECT_NEAR(model.predict(other).uncertainty, before.uncertainty, 0.01 * before.uncertainty);
+}
+
 TEST(CostModel, PricesThatProvedWrongAreLearnedAnew) {
     const Amounts work = amounts(1, 2, 1), other = amounts(1, 0, 1);
     CostModel model = experienced(work);

@@ -33,12 +33,23 @@ TEST(Endurance, StretchesAreEqualButTheLast) {
     EXPECT_EQ(stretches[3].end, 10'001);
 }
 
-// The gain itself creeps (docs/scorecard.md); what is drawn must not show it.
-TEST(DefaultLaw, HoldsItsQualityOverTwoMillionFrames) {
-    const Course course = make_course(make_scenario("toy"));
-    for (const Stretch& stretch : endure(course, *make_controller("predictive"), 1, 2'000'000, 20)) {
-        EXPECT_GE(stretch.quality, 0.975) << stretch.end;
-        EXPECT_LE(stretch.over_5pct, 0.05) << stretch.end;
+struct Enduring {
+    const char* scenario;
+    double least_gain, most_gain;  // the toy's load itself swings by 1.6
+    double least_quality, most_over;
+};
+
+TEST(DefaultLaw, HoldsGainAndQualityOverTwoMillionFrames) {
+    for (const Enduring& expected :
+         {Enduring{"toy", 0.5, 2, 0.975, 0.05}, Enduring{"quiet-noisy", 0.95, 1.05, 0.985, 0.001},
+          Enduring{"camera-cut", 0.9, 1.1, 0.985, 0.04}, Enduring{"heavy-tail", 0.9, 1.1, 0.955, 0.04}}) {
+        const Course course = make_course(make_scenario(expected.scenario));
+        for (const Stretch& stretch : endure(course, *make_controller("predictive"), 1, 2'000'000, 20)) {
+            EXPECT_GE(stretch.gain, expected.least_gain) << expected.scenario << " " << stretch.end;
+            EXPECT_LE(stretch.gain, expected.most_gain) << expected.scenario << " " << stretch.end;
+            EXPECT_GE(stretch.quality, expected.least_quality) << expected.scenario << " " << stretch.end;
+            EXPECT_LE(stretch.over_5pct, expected.most_over) << expected.scenario << " " << stretch.end;
+        }
     }
 }
 
