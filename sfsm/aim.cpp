@@ -4,6 +4,16 @@
 #include <cmath>
 
 namespace sfsm {
+namespace {
+
+// Leaps: a frame takes no twice the target even if it is two sigmas longer than predicted.
+constexpr double surely = 2;        // [sigmas]
+constexpr double most_over = 1.9;   // [targets]
+constexpr double unsure = 0.2;      // uncertainty from which all that was learned may be wrong
+constexpr double longest_leap = 4;  // [times of the newest frame]
+constexpr double no_leap = 1.25;    // [times of the newest frame]
+
+}  // namespace
 
 double Aim::wanted_ms(const CostModel& model) const {
     const double for_noise = 1 - std::min(options.headroom * model.noise(), options.most_headroom);
@@ -14,7 +24,13 @@ double Aim::wanted_ms(const CostModel& model) const {
 double Aim::aim_ms(const CostModel& model, double least_ms, double uncertainty) const {
     const double wanted = wanted_ms(model);
     if (least_ms > wanted) return least_ms + options.worthwhile * (least_ms - wanted);
-    return std::max(wanted * std::exp(-options.caution * uncertainty), least_ms);
+    return std::max(std::min(wanted * std::exp(-options.caution * uncertainty), leap_ms(uncertainty)), least_ms);
+}
+
+double Aim::leap_ms(double uncertainty) const {
+    const double surely_ms = target_ms * most_over * std::exp(-surely * uncertainty);
+    const double far_ms = uncertainty > unsure ? longest_leap * status.last_ms : surely_ms;
+    return std::max(no_leap * status.last_ms, std::min(surely_ms, far_ms));
 }
 
 bool Aim::is_kept(const Prediction& prediction, double aim_ms) const {

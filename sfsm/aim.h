@@ -21,6 +21,10 @@ struct Aim {
     // uncertainty. Where even the coarsest frame, `least_ms`, is too slow: as much above it as detail is worth.
     double aim_ms(const CostModel& model, double least_ms, double uncertainty) const;
 
+    // The longest time [ms] that may be predicted for a decision that is known no better, when it is moved to. Less
+    // than aim_ms() where it would be a leap in the dark: many times the time of the newest frame.
+    double leap_ms(double uncertainty) const;
+
     // Near enough to the aim to change nothing.
     bool is_kept(const Prediction& prediction, double aim_ms) const;
 

@@ -15,8 +15,10 @@ constexpr PriceBelief belief{1 + detail_steps, {1, 1, 1, 1, 1, 1, 1, 1, 1}, 0.7,
 
 constexpr double much_over = 1.03;          // [aim] at which a rise has failed
 constexpr double out_of_reach_band = 0.05;  // over the aim, relative
-constexpr double retested_share = 0.5;      // of the detail
-constexpr double least_retested = 0.1;      // detail
+constexpr double finest_points = 0.99 * detail_of_points;
+constexpr double unknown_points = 0.1;  // uncertainty of what is beyond them
+constexpr double retested_share = 0.5;  // of the detail
+constexpr double least_retested = 0.1;  // detail
 
 Amounts amounts_of(double detail) {
     Amounts amounts;
@@ -47,7 +49,11 @@ void AxisLaw::hear_retest(const Amounts& amounts, double ms) {
 }
 
 void AxisLaw::decide() {
-    if (costs_.is_ready()) turn();
+    if (costs_.is_ready()) {
+        turn();
+    } else if (costs_.samples() == 0) {
+        detail_ = detail_of({State::points, aim_.range, first_splat}, aim_.range);
+    }
     Drawn drawn = next_drawn();
     drawn.decision = decision_at(drawn.detail, aim_.range);
     if (drawn_count_ == 0 || drawn.decision != aim_.status.decision) remember(drawn);
@@ -67,15 +73,23 @@ void AxisLaw::turn() {
     const double aim_ms = aim_.aim_ms(costs_, least_ms, 0);
     const Prediction now = costs_.predict(amounts_of(detail_));
     ceiling_.step(predicted_ms(ceiling_.floor()), predicted_ms(ceiling_.top()));
-    const double sure_ms = aim_.aim_ms(costs_, least_ms, costs_.predict(amounts_of(detail_for(aim_ms))).uncertainty);
     const double before = detail_;
     if (least_ms > aim_.target_ms) {
         turn_out_of_reach(detail_for(aim_ms), std::exp(now.log_ms) / aim_ms);
     } else if (!aim_.is_kept(now, aim_ms)) {
-        turn_to(detail_for(sure_ms), std::exp(now.log_ms), aim_ms);
+        turn_to(sure_detail(detail_for(aim_ms), least_ms), std::exp(now.log_ms), aim_ms);
     }
     if (detail_ != before) aim_.status.reason = aim_.reason_to_move(now, aim_ms, least_ms);
     aim_.believe(costs_.predict(amounts_of(detail_)), costs_);
+}
+
+// The detail to turn to where `wanted` is predicted to meet the aim: less while it is known little, and no triangles
+// before their points are known, as cost may leap between the two.
+double AxisLaw::sure_detail(double wanted, double least_ms) const {
+    const double uncertainty = costs_.predict(amounts_of(wanted)).uncertainty;
+    const double sure = detail_for(aim_.aim_ms(costs_, least_ms, uncertainty));
+    const bool is_leap = detail_ < finest_points && sure > finest_points && uncertainty > unknown_points;
+    return is_leap ? finest_points : sure;
 }
 
 void AxisLaw::turn_to(double detail, double now_ms, double aim_ms) {

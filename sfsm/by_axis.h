@@ -35,6 +35,7 @@ private:
     void turn();
     Drawn next_drawn();
     void hear_retest(const Amounts& amounts, double ms);
+    double sure_detail(double wanted, double least_ms) const;
     void turn_to(double detail, double now_ms, double aim_ms);
     void turn_out_of_reach(double detail, double over_aim);
     double predicted_ms(double detail) const;

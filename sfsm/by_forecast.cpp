@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sfsm/detail.h"
 #include "sfsm/pair_plans.h"
 #include "sfsm/rate_plans.h"
 
@@ -11,10 +12,11 @@ namespace {
 
 constexpr double first_slack = 1.5;  // over the least: the cheapest frame would teach too little of the others
 
-constexpr double doubtful = 0.05;      // uncertainty of the way down that is worth a probe
-constexpr int first_probe = 12;        // times before it: the noise of a frame has to be known
-constexpr int quiet_before_probe = 8;  // decisions without change
-constexpr int longest_wait = 24;       // decisions until a probe's time is given up
+constexpr double doubtful = 0.05;         // uncertainty of the way down that is worth a probe
+constexpr int first_probe = 12;           // times before it: the noise of a frame has to be known
+constexpr int quiet_before_probe = 8;     // decisions without change
+constexpr int longest_finer_wait = 1024;  // [decisions] without change before finer detail is tried again
+constexpr int longest_wait = 24;          // decisions until a probe's time is given up
 
 }  // namespace
 
@@ -48,12 +50,14 @@ void ForecastLaw::decide_among(const Plans& plans, std::int64_t frame) {
     model_.foresee(frame, decision, plans.at(decision));
 }
 
-// Nothing has been timed yet: better two coarse frames on a fast machine than two of a second each on a slow one.
+// Nothing has been timed yet: better two coarse frames on a fast machine than two of a second each on a slow one. None
+// is finer than points that are four times the finest, as a machine may be slower still.
 Plan ForecastLaw::first_guess(const Plans& plans) const {
     const Prices guess = prices_of_a_slow_machine(drawing_);
+    const double fine_ms = plan_ms(plans.at({State::points, aim_.range, first_splat}), guess);
     const double least_ms = plan_ms(plans.cheapest(guess), guess);
     if (least_ms > aim_.target_ms) return plans.worthwhile(guess, first_slack * least_ms);
-    return plans.least_loss(guess, std::max(aim_.target_ms, first_slack * least_ms));
+    return plans.least_loss(guess, std::min(fine_ms, std::max(aim_.target_ms, first_slack * least_ms)));
 }
 
 // Of those that take at most so long. Where nothing meets the target, detail must be worth its time.
@@ -82,6 +86,9 @@ void ForecastLaw::choose(const Plans& plans) {
     const bool is_worth_it = plans.is_better(best, now, aim_.options.better);
     if (aim_.is_kept(plans.once_drawn(prediction, costs.noise()), now_may_take_ms) && !is_worth_it) return;
     const Plan plan = surely_fitting(plans, best, least_ms, aim_ms);
+    // What is surely better moves with every time that is heard.
+    const bool is_fast_enough = prediction.log_ms <= std::log(now_may_take_ms);
+    if (is_worth_it && is_fast_enough && !plans.is_better(plan, now, aim_.options.better)) return;
     const Decision chosen = plans.decision_of(plan);
     if (chosen == kept_) return;
     kept_ = chosen;
@@ -90,21 +97,23 @@ void ForecastLaw::choose(const Plans& plans) {
     aim_.believe(model_.predict(plan), costs);
 }
 
-// The finest plan that would meet the aim even if it took `caution` sigmas longer. Where `best` is known too little,
-// a plan between it and the cheapest is known better, and drawing that one teaches more.
+// The finest plan that would meet the aim even if it took a margin longer. Where `best` is known too little, a plan
+// between it and the cheapest is known better, and drawing that one teaches more.
 Plan ForecastLaw::surely_fitting(const Plans& plans, const Plan& best, double least_ms, double aim_ms) const {
-    const auto longest_ms = [&](const Plan& plan) {
+    const auto is_sure = [&](const Plan& plan, double limit_ms) {
         const Prediction prediction = model_.predict(plan);
-        return std::exp(prediction.log_ms + aim_.options.caution * prediction.uncertainty);
+        const double ms = std::exp(prediction.log_ms);
+        const double longest_ms = ms * std::exp(aim_.options.caution * prediction.uncertainty);
+        return longest_ms <= limit_ms && ms <= aim_.leap_ms(prediction.uncertainty);
     };
-    if (least_ms >= aim_ms || longest_ms(best) <= aim_ms * (1 + aim_.options.band)) return best;
+    if (least_ms >= aim_ms || is_sure(best, aim_ms * (1 + aim_.options.band))) return best;
     double sure_ms = least_ms, unsure_ms = aim_ms;
     Plan sure = best_plan(plans, least_ms, sure_ms);
     constexpr int halvings = 5;
     for (int i = 0; i < halvings; ++i) {
         const double middle_ms = std::sqrt(sure_ms * unsure_ms);
         const Plan middle = best_plan(plans, least_ms, middle_ms);
-        if (longest_ms(middle) <= aim_ms) {
+        if (is_sure(middle, aim_ms)) {
             sure = middle;
             sure_ms = middle_ms;
         } else {
@@ -136,7 +145,8 @@ std::optional<Plan> ForecastLaw::next_probe(const Plans& plans, const Plan& now)
     const Prices prices = model_.foreseen_prices();
     const Plan cheapest = plans.cheapest(prices);
     const double least_ms = plan_ms(cheapest, prices);
-    if (aim_.is_out_of_reach(model_.costs(), least_ms)) return finer_probe(plans, now, least_ms);
+    if (aim_.is_out_of_reach(model_.costs(), least_ms))
+        return probe_.finer < aim_.options.probes ? finer_probe(plans, now, least_ms) : std::nullopt;
     if (aim_.status.predicted_ms > aim_.target_ms) return {};
     for (const Lesson lesson : {Lesson::motion, Lesson::points}) {
         int& drawn = probe_.of[static_cast<std::size_t>(lesson)];
@@ -146,15 +156,16 @@ std::optional<Plan> ForecastLaw::next_probe(const Plans& plans, const Plan& now)
         aim_.status.reason = lesson == Lesson::motion ? "learning what motion costs" : "learning what points cost";
         return plans.lesson(lesson, now, drawn++);
     }
-    return {};
+    return since_choice_ >= probe_.finer_wait ? finer_probe(plans, now, least_ms) : std::nullopt;
 }
 
 std::optional<Plan> ForecastLaw::finer_probe(const Plans& plans, const Plan& now, double least_ms) {
     const double most_ms = aim_.aim_ms(model_.costs(), least_ms, 0);
     const Plan plan = plans.least_loss(model_.foreseen_prices(), most_ms);
     const bool is_finer = plans.is_better(plan, now, aim_.options.better);
-    if (probe_.finer >= aim_.options.probes || !is_finer || !is_doubtful(plan)) return {};
+    if (!is_finer || !is_doubtful(plan)) return {};
     probe_.finer += 1;
+    probe_.finer_wait = std::min(2 * probe_.finer_wait, longest_finer_wait);
     aim_.status.reason = "learning what finer detail costs";
     return plan;
 }

@@ -26,11 +26,12 @@ public:
     void decide(const Forecast& forecast, std::int64_t frame);
 
 private:
-    // A frame drawn to learn from: while the target is met and the price of motion or of points is unknown, or while it
-    // is out of reach and that of finer detail is.
+    // A frame drawn to learn from: while the target is met and the price of motion, of points or of finer detail is
+    // unknown, or while it is out of reach and that of finer detail is.
     struct Probe {
         std::array<int, lessons> of{};  // of each lesson, drawn so far
         int finer = 0;
+        int finer_wait = 16;  // [decisions] without change before the next of these, where the target is met
         Decision decision;
         int age = 0;  // decisions since; 0: none is on its way
     };

@@ -8,13 +8,14 @@
 namespace sfsm {
 namespace {
 
-TEST(Laws, EveryListedNameMakesALawThatStartsOriginal) {
+TEST(Laws, EveryListedNameMakesALaw) {
     ASSERT_FALSE(law_names().empty());
     EXPECT_EQ(law_names().front(), "predictive");
     for (const std::string_view name : law_names()) {
         const auto law = make_controller(name);
         ASSERT_NE(law, nullptr) << name;
-        EXPECT_EQ(law->decide({16.6, 100}), Decision{}) << name;
+        const Decision first = law->decide({16.6, 100});
+        EXPECT_TRUE(first == Decision{} || first.state == State::points) << name;
         EXPECT_EQ(law->status().target_ms, 16.6) << name;
     }
 }

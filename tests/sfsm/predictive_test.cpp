@@ -149,11 +149,34 @@ TEST(PredictiveLaw, AHitchAPauseAndALoadingScreenLeaveNothing) {
 
 TEST(PredictiveLaw, StopsAtAStepInCostInsteadOfBouncingAcrossIt) {
     const Curve stairs = [](double detail) { return toy(std::floor(detail * 8) / 8); };
-    const auto rows = run_knob(knob(stairs, steady(), 0.01), 3000, 2);
-    EXPECT_LE(reversals(rows, 1000), 4);
+    constexpr int seeds = 20, most_reversals = 10;  // of each in 2000 frames
+    int bouncing = 0;
     double over = 0;
-    for (std::size_t i = 200; i < rows.size(); ++i) over += rows[i].frame_ms > 1.05 * target_ms ? 1 : 0;
-    EXPECT_LT(over / 2800, 0.05);
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+        const auto rows = run_knob(knob(stairs, steady(), 0.01, seed), 3000, 2);
+        bouncing += reversals(rows, 1000) > most_reversals ? 1 : 0;
+        for (std::size_t i = 200; i < rows.size(); ++i) over += rows[i].frame_ms > 1.05 * target_ms ? 1 : 0;
+    }
+    EXPECT_LE(bouncing, 1) << "a jump of a few per cent may look like noise";
+    EXPECT_LT(over / seeds / 2800, 0.05);
+}
+
+TEST(PredictiveLaw, NoFirstFrameIsFinerThanPointsOfFourTimesTheFinest) {
+    PredictiveLaw law;
+    const Decision first = law.decide({target_ms, test_range});
+    EXPECT_EQ(first.state, State::points);
+    EXPECT_NEAR(first.splat_size, 4 * finest_splat, 1e-9);
+}
+
+TEST(PredictiveLaw, DrawsNoTrianglesBeforeTheFinestPointsAreKnown) {
+    const Curve leaping = [](double detail) { return detail < detail_of_points ? 0.3 + 0.2 * detail : 2.5; };
+    const auto rows = run_knob(knob(leaping, steady()), 30, 2);
+    bool are_known = false;
+    for (const TraceRow& row : rows) {
+        EXPECT_TRUE(are_known || row.decision.state == State::points) << row.frame;
+        are_known = are_known || row.decision.splat_size < 1.1 * finest_splat;
+    }
+    EXPECT_TRUE(are_known);
 }
 
 TEST(PredictiveLaw, GivesUpOnATargetOutOfReachAndComesBack) {
@@ -338,7 +361,7 @@ TEST(PredictiveForecast, ACameraCutIsInBandOnItsFirstFrame) {
 }
 
 TEST(PredictiveForecast, ForecastsThatAreOffMeetTheTargetToo) {
-    for (const double drawn : {0.9, 1.1}) {
+    for (const double drawn : {0.85, 0.9, 1.1, 1.15}) {
         Scene scene = scene_of(20'000);
         scene.drawn = drawn;
         PredictiveLaw law;
@@ -424,7 +447,7 @@ TEST(PredictiveForecast, StatusTellsPricesAndWhatToExpect) {
 
 TEST(PredictiveForecast, ForecastsThatAreOffAreMendedWhileDecisionsChange) {
     const Target target = [](std::int64_t frame) { return frame % 2 == 0 ? 14.0 : 20.0; };
-    for (const double drawn : {0.9, 1.1}) {
+    for (const double drawn : {0.85, 0.9, 1.1, 1.15}) {
         Scene scene = scene_of(20'000);
         scene.drawn = drawn;
         PredictiveLaw law;
