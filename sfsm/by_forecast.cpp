@@ -12,11 +12,12 @@ namespace {
 
 constexpr double first_slack = 1.5;  // over the least: the cheapest frame would teach too little of the others
 
-constexpr double doubtful = 0.05;         // uncertainty of the way down that is worth a probe
-constexpr int first_probe = 12;           // times before it: the noise of a frame has to be known
-constexpr int quiet_before_probe = 8;     // decisions without change
-constexpr int longest_finer_wait = 1024;  // [decisions] without change before finer detail is tried again
-constexpr int longest_wait = 24;          // decisions until a probe's time is given up
+constexpr double doubtful = 0.05;          // uncertainty of the way down that is worth a probe
+constexpr double unknown_least = 0.0275;   // uncertainty of the cheapest plan that is worth one
+constexpr int first_probe = 12;            // times before it: the noise of a frame has to be known
+constexpr int quiet_before_probe = 8;      // decisions without change
+constexpr int longest_wanted_wait = 1024;  // [decisions] without change before finer detail is tried again
+constexpr int longest_wait = 24;           // decisions until a probe's time is given up
 
 }  // namespace
 
@@ -73,6 +74,7 @@ void ForecastLaw::choose(const Plans& plans) {
     const Prices prices = model_.foreseen_prices();
     const double least_ms = plan_ms(plans.cheapest(prices), prices);
     const double aim_ms = aim_.aim_ms(costs, least_ms, 0);
+    wanted_.reset();
     kept_ = plans.renewed(kept_);
     const Plan now = plans.at(kept_);
     const Plan best = best_plan(plans, least_ms, aim_ms);
@@ -88,7 +90,10 @@ void ForecastLaw::choose(const Plans& plans) {
     const Plan plan = surely_fitting(plans, best, least_ms, aim_ms);
     // What is surely better moves with every time that is heard.
     const bool is_fast_enough = prediction.log_ms <= std::log(now_may_take_ms);
-    if (is_worth_it && is_fast_enough && !plans.is_better(plan, now, aim_.options.better)) return;
+    if (is_worth_it && is_fast_enough && !plans.is_better(plan, now, aim_.options.better)) {
+        wanted_ = best;
+        return;
+    }
     const Decision chosen = plans.decision_of(plan);
     if (chosen == kept_) return;
     kept_ = chosen;
@@ -145,8 +150,7 @@ std::optional<Plan> ForecastLaw::next_probe(const Plans& plans, const Plan& now)
     const Prices prices = model_.foreseen_prices();
     const Plan cheapest = plans.cheapest(prices);
     const double least_ms = plan_ms(cheapest, prices);
-    if (aim_.is_out_of_reach(model_.costs(), least_ms))
-        return probe_.finer < aim_.options.probes ? finer_probe(plans, now, least_ms) : std::nullopt;
+    if (aim_.is_out_of_reach(model_.costs(), least_ms)) return probe_out_of_reach(plans, now, cheapest, least_ms);
     if (aim_.status.predicted_ms > aim_.target_ms) return {};
     for (const Lesson lesson : {Lesson::motion, Lesson::points}) {
         int& drawn = probe_.of[static_cast<std::size_t>(lesson)];
@@ -156,7 +160,22 @@ std::optional<Plan> ForecastLaw::next_probe(const Plans& plans, const Plan& now)
         aim_.status.reason = lesson == Lesson::motion ? "learning what motion costs" : "learning what points cost";
         return plans.lesson(lesson, now, drawn++);
     }
-    return since_choice_ >= probe_.finer_wait ? finer_probe(plans, now, least_ms) : std::nullopt;
+    return wanted_probe();
+}
+
+std::optional<Plan> ForecastLaw::probe_out_of_reach(const Plans& plans, const Plan& now, const Plan& cheapest,
+                                                    double least_ms) {
+    if (since_choice_ % quiet_before_probe != 0) return {};
+    if (is_least_unknown(cheapest)) return cheapest;
+    return probe_.finer < aim_.options.probes ? finer_probe(plans, now, least_ms) : std::nullopt;
+}
+
+// Once in a while: what it would cost is not known until it is drawn.
+std::optional<Plan> ForecastLaw::wanted_probe() {
+    if (!wanted_ || since_choice_ < probe_.wanted_wait) return {};
+    probe_.wanted_wait = std::min(2 * probe_.wanted_wait, longest_wanted_wait);
+    aim_.status.reason = "learning what finer detail costs";
+    return wanted_;
 }
 
 std::optional<Plan> ForecastLaw::finer_probe(const Plans& plans, const Plan& now, double least_ms) {
@@ -165,9 +184,15 @@ std::optional<Plan> ForecastLaw::finer_probe(const Plans& plans, const Plan& now
     const bool is_finer = plans.is_better(plan, now, aim_.options.better);
     if (!is_finer || !is_doubtful(plan)) return {};
     probe_.finer += 1;
-    probe_.finer_wait = std::min(2 * probe_.finer_wait, longest_finer_wait);
     aim_.status.reason = "learning what finer detail costs";
     return plan;
+}
+
+// What detail may cost out of reach is measured by the least that a frame takes.
+bool ForecastLaw::is_least_unknown(const Plan& cheapest) {
+    if (model_.predict(cheapest).uncertainty <= unknown_least) return false;
+    aim_.status.reason = "learning what the least costs";
+    return true;
 }
 
 bool ForecastLaw::is_doubtful(const Plan& plan) const {

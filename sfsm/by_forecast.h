@@ -31,7 +31,7 @@ private:
     struct Probe {
         std::array<int, lessons> of{};  // of each lesson, drawn so far
         int finer = 0;
-        int finer_wait = 16;  // [decisions] without change before the next of these, where the target is met
+        int wanted_wait = 16;  // [decisions] without change before wanted_ is drawn
         Decision decision;
         int age = 0;  // decisions since; 0: none is on its way
     };
@@ -44,14 +44,18 @@ private:
     void probe(const Plans& plans);
     bool is_time_to_probe();
     std::optional<Plan> next_probe(const Plans& plans, const Plan& now);
+    std::optional<Plan> probe_out_of_reach(const Plans& plans, const Plan& now, const Plan& cheapest, double least_ms);
+    std::optional<Plan> wanted_probe();
     std::optional<Plan> finer_probe(const Plans& plans, const Plan& now, double least_ms);
+    bool is_least_unknown(const Plan& cheapest);
     bool is_doubtful(const Plan& plan) const;
 
     Aim& aim_;
     Drawing drawing_;
     WorkModel model_;
-    Decision kept_;         // what is drawn between probes
-    int since_choice_ = 0;  // decisions since kept_ changed
+    Decision kept_;               // what is drawn between probes
+    std::optional<Plan> wanted_;  // a better decision that is known too little to be chosen
+    int since_choice_ = 0;        // decisions since kept_ changed
     Probe probe_;
 };
 

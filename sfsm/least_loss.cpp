@@ -1,6 +1,7 @@
 #include "sfsm/least_loss.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -14,6 +15,22 @@ double step_ms(const Step& step, const Prices& prices) {
     for (const WorkKind kind : work_on<axis>) ms += prices[kind] * counted(step.work[kind]);
     return ms;
 }
+
+// What each step of a list takes; the first of them are calculated only once.
+template <WorkAxis axis>
+class StepTimes {
+public:
+    StepTimes(std::span<const Step> steps, const Prices& prices) : steps_(steps), prices_(prices) {
+        for (std::size_t i = 0; i < std::min(steps.size(), kept_.size()); ++i)
+            kept_[i] = step_ms<axis>(steps[i], prices);
+    }
+    double operator[](std::size_t i) const { return i < kept_.size() ? kept_[i] : step_ms<axis>(steps_[i], prices_); }
+
+private:
+    std::span<const Step> steps_;
+    const Prices& prices_;
+    std::array<double, 64> kept_;  // none where there is no step
+};
 
 double distance_of(const Step& step, double range) {
     return std::min(range, step.setting);
@@ -59,11 +76,11 @@ Plan plan_of(const Forecast& forecast, double range, const Place& motion, const 
 
 // The first place of a falling list of costs that takes at most `rest`; past the end where none does. Between steps
 // only where `is_joined` says that there is a between.
-template <class Cost, class Joined>
-Place fitting_place(std::span<const Step> steps, double rest, const Cost& cost, const Joined& is_joined) {
+template <class Times, class Joined>
+Place fitting_place(std::span<const Step> steps, double rest, const Times& times, const Joined& is_joined) {
     double before = 0;
     for (std::size_t i = 0; i < steps.size(); ++i) {
-        const double ms = cost(steps[i]);
+        const double ms = times[i];
         if (ms <= rest) {
             if (i == 0 || !is_joined(steps[i - 1]) || !(before > ms)) return {i, 1};
             return {i, std::clamp((before - rest) / (before - ms), 0.0, 1.0)};
@@ -79,14 +96,14 @@ double loss_at(std::span<const Step> steps, const Place& place) {
 }
 
 // The cheapest place from there on that loses as little: a renderer may gain nothing from its finest steps.
-template <class Cost>
-Place cheapest_alike(std::span<const Step> steps, Place place, const Cost& cost) {
+template <class Times>
+Place cheapest_alike(std::span<const Step> steps, Place place, const Times& times) {
     if (place.at >= steps.size()) return place;
     const double loss = loss_at(steps, place);
-    double least_ms = cost(steps[place.at]);
-    if (place.share < 1) least_ms = std::lerp(cost(steps[place.at - 1]), least_ms, place.share);
+    double least_ms = times[place.at];
+    if (place.share < 1) least_ms = std::lerp(times[place.at - 1], least_ms, place.share);
     for (std::size_t i = place.at; i < steps.size() && steps[i].loss_px <= loss; ++i) {
-        const double ms = cost(steps[i]);
+        const double ms = times[i];
         if (!is_cheaper(ms, least_ms)) continue;
         place = {i, 1};
         least_ms = ms;
@@ -129,8 +146,8 @@ Plan cheapest_plan(const Forecast& forecast, double range) {
 }
 
 Plan least_loss_plan(const Forecast& forecast, double range, const Prices& prices, double budget_ms) {
-    const auto motion_cost = [&](const Step& step) { return step_ms<WorkAxis::motion>(step, prices); };
-    const auto shape_cost = [&](const Step& step) { return step_ms<WorkAxis::shape>(step, prices); };
+    const StepTimes<WorkAxis::motion> motion_ms(forecast.motion, prices);
+    const StepTimes<WorkAxis::shape> shape_ms(forecast.shapes, prices);
     const auto ms_of = [&](const Place& motion, const Place& shapes) {
         return plan_ms(plan_of(forecast, range, motion, shapes), prices);
     };
@@ -149,14 +166,14 @@ Plan least_loss_plan(const Forecast& forecast, double range, const Prices& price
     };
     const double rest = budget_ms - cost_of(only_on<WorkAxis::frame>(forecast.frame), prices);
     for (std::size_t m = 0; m < forecast.motion.size(); ++m) {
-        const double left = rest - motion_cost(forecast.motion[m]);
-        const Place fitting = fitting_place(forecast.shapes, left, shape_cost, has_size);
-        consider({m, 1}, cheapest_alike(forecast.shapes, fitting, shape_cost));
+        const double left = rest - motion_ms[m];
+        const Place fitting = fitting_place(forecast.shapes, left, shape_ms, has_size);
+        consider({m, 1}, cheapest_alike(forecast.shapes, fitting, shape_ms));
     }
     for (std::size_t s = 0; s < forecast.shapes.size(); ++s) {
-        const double left = rest - shape_cost(forecast.shapes[s]);
-        const Place fitting = fitting_place(forecast.motion, left, motion_cost, has_distance);
-        consider(cheapest_alike(forecast.motion, fitting, motion_cost), {s, 1});
+        const double left = rest - shape_ms[s];
+        const Place fitting = fitting_place(forecast.motion, left, motion_ms, has_distance);
+        consider(cheapest_alike(forecast.motion, fitting, motion_ms), {s, 1});
     }
     return plan_of(forecast, range, best_motion, best_shapes);
 }
@@ -165,12 +182,15 @@ Plan worthwhile_plan(const Forecast& forecast, double range, const Prices& price
     Plan best = least_loss_plan(forecast, range, prices, budget_ms);
     double least = ms_of_detail(best, plan_ms(best, prices));
     const double every_ms = prices.frame + cost_of(only_on<WorkAxis::frame>(forecast.frame), {0, prices.each});
+    const StepTimes<WorkAxis::motion> motion_ms(forecast.motion, prices);
+    const StepTimes<WorkAxis::shape> shape_ms(forecast.shapes, prices);
     for (std::size_t m = 0; m < forecast.motion.size(); ++m) {
-        const double before_ms = every_ms + step_ms<WorkAxis::motion>(forecast.motion[m], prices);
+        const double before_ms = every_ms + motion_ms[m];
         for (std::size_t s = 0; s < forecast.shapes.size(); ++s) {
-            const double ms = before_ms + step_ms<WorkAxis::shape>(forecast.shapes[s], prices);
+            const double ms = before_ms + shape_ms[s];
+            if (ms > budget_ms) continue;
             const double loss = forecast.motion[m].loss_px + forecast.shapes[s].loss_px;
-            if (ms > budget_ms || !is_cheaper(ms * (1 + loss), least)) continue;
+            if (!is_cheaper(ms * (1 + loss), least)) continue;
             best = plan_of(forecast, range, {m, 1}, {s, 1});
             least = ms_of_detail(best, ms);
         }
