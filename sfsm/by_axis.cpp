@@ -63,6 +63,7 @@ void AxisLaw::decide() {
 // Where the target is out of reach, the detail that is kept is believed to cost little.
 AxisLaw::Drawn AxisLaw::next_drawn() {
     const bool is_given_up = costs_.is_ready() && detail_ > least_retested && predicted_ms(0) > aim_.target_ms;
+    aim_.status.reason = kept_reason_;
     if (!retest_.step(is_given_up, costs_.shifts())) return {{}, detail_, false};
     aim_.status.reason = "out of reach: is less detail still in vain?";
     return {{}, retested_share * detail_, true};
@@ -79,7 +80,7 @@ void AxisLaw::turn() {
     } else if (!aim_.is_kept(now, aim_ms)) {
         turn_to(sure_detail(detail_for(aim_ms), least_ms), std::exp(now.log_ms), aim_ms);
     }
-    if (detail_ != before) aim_.status.reason = aim_.reason_to_move(now, aim_ms, least_ms);
+    if (detail_ != before) kept_reason_ = aim_.reason_to_move(now, aim_ms, least_ms);
     aim_.believe(costs_.predict(amounts_of(detail_)), costs_);
 }
 

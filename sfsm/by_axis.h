@@ -49,7 +49,8 @@ private:
     Ceiling ceiling_;
     Retest retest_;
     double detail_ = 1;
-    std::array<Drawn, 16> drawn_{};  // the newest decisions; L may have moved since, so each with its detail
+    const char* kept_reason_ = "start";  // Status::reason of what is kept between retests
+    std::array<Drawn, 16> drawn_{};      // the newest decisions; L may have moved since, so each with its detail
     std::size_t drawn_count_ = 0;
 };
 
