@@ -61,7 +61,7 @@ void WorkModel::foresee(std::int64_t frame, const Decision& decision, const Plan
 }
 
 Prediction WorkModel::predict(const Plan& plan) const {
-    Prediction prediction = costs_.predict(amounts_of(plan));
+    Prediction prediction = costs_.predict(foresight_.corrected(amounts_of(plan)));
     prediction.log_ms += foresight_.bias();
     return prediction;
 }
@@ -75,7 +75,9 @@ Prices WorkModel::prices() const {
 }
 
 Prices WorkModel::foreseen_prices() const {
-    return std::exp(foresight_.bias()) * prices();
+    Prices foreseen = std::exp(foresight_.bias()) * prices();
+    for (std::size_t i = 0; i < work_kinds; ++i) foreseen.each[i] *= foresight_.factor(static_cast<int>(i) + 1);
+    return foreseen;
 }
 
 Prices prices_of_a_slow_machine(Drawing drawing) {

@@ -29,10 +29,15 @@ FrameSample frame(std::int64_t number, const Decision& drawn_with = decision) {
 class ForesightOf : public testing::Test {
 protected:
     // One frame that drew so many times what was foreseen of it.
-    void draw(double log_times) {
+    void draw(double log_times) { draw(work(std::exp(log_times))); }
+    void draw(const Amounts& drawn) {
         foresight_.foresee(next_, decision, work());
-        foresight_.observe(frame(next_), work(std::exp(log_times)), model_);
+        foresight_.observe(frame(next_), drawn, model_);
         ++next_;
+    }
+    // ln of what is foreseen to be drawn, over what is said to be.
+    double error() const {
+        return foresight_.bias() + model_.predict(foresight_.corrected(work())).log_ms - model_.predict(work()).log_ms;
     }
 
     const CostModel model_ = priced();
@@ -62,17 +67,54 @@ TEST_F(ForesightOf, FramesForgetsWithAMemoryOfSixteen) {
 
 TEST_F(ForesightOf, OneWildFrameCountsForATenthOfItself) {
     for (int i = 0; i < 100; ++i) draw(0);
-    draw(5);
+    draw(1.5);
     EXPECT_NEAR(foresight_.bias(), 0.1 / 16, rounding);
-    draw(-5);
+    draw(-1.5);
     EXPECT_LT(foresight_.bias(), 0.001);
 }
 
-TEST_F(ForesightOf, AllFramesNeverExceedsThreeTenths) {
+TEST_F(ForesightOf, TwoFramesThatAgreeIsBelievedAtOnce) {
+    for (const double off : {std::log(2), std::log(0.5), 0.0, 1.0, 0.8}) {
+        draw(off);
+        draw(off);
+        EXPECT_NEAR(foresight_.factor(1), std::exp(off), rounding);
+        EXPECT_NEAR(foresight_.factor(2), std::exp(off), rounding);
+        for (int i = 0; i < 50; ++i) draw(off);
+        EXPECT_NEAR(error(), off, 0.01);
+    }
+}
+
+TEST_F(ForesightOf, FramesThatDisagreeIsNotBelieved) {
+    for (int i = 0; i < 100; ++i) draw(0);
+    for (int i = 0; i < 30; ++i) draw(i % 2 == 0 ? 0.4 : -0.4);
+    EXPECT_LT(std::abs(error()), 0.02);
+}
+
+TEST_F(ForesightOf, AllFramesIsEightfoldAtMost) {
     for (const double off : {3.0, -3.0}) {
         for (int i = 0; i < 500; ++i) draw(off);
-        EXPECT_NEAR(foresight_.bias(), std::copysign(0.3, off), rounding);
+        EXPECT_NEAR(foresight_.factor(1), off > 0 ? 8 : 1.0 / 8, rounding);
+        EXPECT_LE(std::abs(foresight_.bias()), 0.3);
     }
+}
+
+TEST_F(ForesightOf, EachKindIsItsOwn) {
+    const Amounts drawn = {{2, 3 * 2, 5 * 0.5}, 3};
+    const Amounts more = {{2, 3 * 4, 5 * 1.5}, 3};
+    for (const Amounts& amounts : {drawn, drawn, more, more}) draw(amounts);
+    EXPECT_NEAR(foresight_.factor(1), 4, rounding);
+    EXPECT_NEAR(foresight_.factor(2), 1.5, rounding);
+    const Amounts corrected = foresight_.corrected(work());
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(corrected.of[i], more.of[i], rounding) << i;
+}
+
+TEST_F(ForesightOf, AKindOfLittleTimeIsUnheard) {
+    for (int i = 0; i < 5; ++i) {
+        foresight_.foresee(next_, decision, {{2, 3, 1e-3}, 3});
+        foresight_.observe(frame(next_), {{2, 3, 5}, 3}, model_);
+        ++next_;
+    }
+    EXPECT_EQ(foresight_.factor(2), 1);
 }
 
 TEST_F(ForesightOf, AFrameIsThatFramesAlone) {

@@ -7,28 +7,12 @@
 #include <vector>
 
 #include "sfsm/simulate/metrics.h"
-#include "sfsm/simulate/scorecard.h"
 #include "sfsm/simulate/work_plant.h"
 #include "sfsm/simulate/work_scenarios.h"
+#include "tests/simulate/default_row.h"
 
 namespace sfsm::simulate {
 namespace {
-
-constexpr int some_seeds = 9;
-
-Contestant the_default() {
-    const std::string name(law_names().front());
-    return {name, [=](const Course&) { return make_controller(name); }, false};
-}
-
-Row row_of(const char* scenario, int seeds = some_seeds) {
-    ScorecardOptions options;
-    options.scenarios = {make_scenario(scenario)};
-    options.laws = {the_default()};
-    options.reference = the_default();
-    options.seeds = seeds;
-    return scorecard(options).front();
-}
 
 TEST(DefaultLaw, ReachesTheToysGoals) {
     const Row row = row_of("toy");
