@@ -73,7 +73,7 @@ void AxisLaw::turn() {
     const double least_ms = predicted_ms(0);
     const double aim_ms = aim_.aim_ms(costs_, least_ms, 0);
     const Prediction now = costs_.predict(amounts_of(detail_));
-    ceiling_.step(predicted_ms(ceiling_.floor()), predicted_ms(ceiling_.top()));
+    ceiling_.step(predicted_ms(ceiling_.floor()), predicted_ms(ceiling_.top()), std::log(aim_ms) - now.log_ms);
     const double before = detail_;
     if (least_ms > aim_.target_ms) {
         turn_out_of_reach(detail_for(aim_ms), std::exp(now.log_ms) / aim_ms);

@@ -8,6 +8,9 @@ namespace {
 constexpr int trial = 24;                           // decisions that a rise is watched for
 constexpr int first_patience = 16, longest = 1024;  // decisions
 constexpr int unconfirmed = 64;                     // decisions that a ceiling lasts which may be chance
+constexpr double much_to_spare = 0.1;               // [ln] of time
+constexpr int hurry = 8;                            // decisions that one counts for while there is so much
+constexpr int hopeless = 128;                       // [decisions] patience from which on nothing hurries
 constexpr double narrow = 0.01;                     // of detail: not worth a rise below a ceiling
 constexpr double fallen = 0.9;                      // share of the time by which load is found to have fallen
 constexpr double disproved = 0.8;                   // share of the time by which a ceiling is found not to be slow
@@ -44,10 +47,11 @@ double Ceiling::fall(double at, double to, double ms_at) {
     return to_;
 }
 
-void Ceiling::step(double ms_at_floor, double ms_at_top) {
+void Ceiling::step(double ms_at_floor, double ms_at_top, double to_spare) {
     if (age_ <= trial) ++age_;
     if (since_failure_ <= trial) ++since_failure_;
-    if (wait_ > 0) --wait_;
+    const bool is_hurrying = to_spare > much_to_spare && patience_ <= hopeless;
+    wait_ = std::max(wait_ - (is_hurrying ? hurry : 1), 0);
     if (lasts_ == 0) return;
     const bool has_fallen = ms_at_floor < fallen * floor_ms_ || ms_at_top < disproved * top_ms_;
     if (since_failure_ > trial && has_fallen) return forget();

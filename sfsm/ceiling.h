@@ -11,7 +11,8 @@ namespace sfsm {
 // - A rise is on trial for 24 decisions. If it turns out slow, its detail becomes the ceiling.
 // - The law then falls to the detail it now predicts to fit, at most back to where the rise began. If that is slow too,
 //   it falls at least half the way back.
-// - Below a ceiling a rise goes only half the way up to it. The wait before the next rise doubles with each failure.
+// - Below a ceiling a rise goes only half the way up to it. The wait before the next rise doubles with each failure; it
+//   passes eight times as fast while a tenth of the time is to spare, until a few rises in a row have failed.
 // - A ceiling lasts 64 decisions, as a few slow frames may have made it by chance. One that the next rise confirms,
 // from
 //   below it, lasts 1024.
@@ -25,8 +26,9 @@ public:
     // Detail `at` is predicted slow, to take `ms_at`; `to` is predicted to fit: the detail to fall to.
     double fall(double at, double to, double ms_at);
 
-    // Once a decision, with the times [ms] that are now predicted for floor() and top().
-    void step(double ms_at_floor, double ms_at_top);
+    // Once a decision, with the times [ms] that are now predicted for floor() and top(). `to_spare`: ln(aim / the time
+    // predicted for what is drawn).
+    void step(double ms_at_floor, double ms_at_top, double to_spare);
 
     double floor() const { return floor_; }
     double top() const { return std::min(ceiling_, 1.0); }  // the ceiling; 1: there is none

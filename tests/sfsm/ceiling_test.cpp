@@ -11,7 +11,7 @@ constexpr int unconfirmed = 64;
 constexpr double ms = 16, slow_ms = 20;
 
 void pass(Ceiling& ceiling, int decisions, double ms_at_floor = ms, double ms_at_top = slow_ms) {
-    for (int i = 0; i < decisions; ++i) ceiling.step(ms_at_floor, ms_at_top);
+    for (int i = 0; i < decisions; ++i) ceiling.step(ms_at_floor, ms_at_top, 0);
 }
 
 // A rise from 0.4 to 0.8 that failed at once, back to 0.4.
@@ -28,9 +28,10 @@ void confirm(Ceiling& ceiling) {
 }
 
 // Decisions until a rise from `from` is allowed.
-int wait(Ceiling ceiling, double from) {
+int wait(Ceiling ceiling, double from, double to_spare = 0) {
     int decisions = 0;
-    for (; ceiling.rise(from, 1, ms) == from && decisions < 2 * longest; ++decisions) ceiling.step(ms, slow_ms);
+    for (; ceiling.rise(from, 1, ms) == from && decisions < 2 * longest; ++decisions)
+        ceiling.step(ms, slow_ms, to_spare);
     return decisions;
 }
 
@@ -97,6 +98,21 @@ TEST(Ceiling, WaitsDoubleWithEachFailureUpToTheLongest) {
         ceiling.fall(at, at - 0.001, slow_ms);
         EXPECT_EQ(wait(ceiling, 0.4), expected);
         at = 0.4 + (at - 0.4) / (expected == 16 ? 1 : 2) - (expected == 16 ? 0.001 : 0);
+    }
+}
+
+TEST(Ceiling, HurriesWhileMuchTimeIsToSpareUntilItIsHopeless) {
+    Ceiling ceiling;
+    fail(ceiling);
+    pass(ceiling, unconfirmed);
+    ceiling.rise(0.4, 0.8, ms);
+    double at = 0.8;
+    for (const int patience : {16, 32, 64, 128, 256}) {
+        ceiling.fall(at, 0.6, slow_ms);
+        at = patience == 16 ? 0.6 : (0.4 + at) / 2;
+        EXPECT_EQ(wait(ceiling, 0.4, 0.2), patience < 128 ? patience / 8 : patience);
+        EXPECT_EQ(wait(ceiling, 0.4, 0.05), patience) << "little is to spare";
+        EXPECT_EQ(wait(ceiling, 0.4, -0.2), patience) << "none is to spare";
     }
 }
 

@@ -149,7 +149,7 @@ TEST(PredictiveLaw, AHitchAPauseAndALoadingScreenLeaveNothing) {
 
 TEST(PredictiveLaw, StopsAtAStepInCostInsteadOfBouncingAcrossIt) {
     const Curve stairs = [](double detail) { return toy(std::floor(detail * 8) / 8); };
-    constexpr int seeds = 20, most_reversals = 10;  // of each in 2000 frames
+    constexpr int seeds = 60, most_reversals = 10;  // of each in 2000 frames
     int bouncing = 0;
     double over = 0;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
@@ -157,7 +157,7 @@ TEST(PredictiveLaw, StopsAtAStepInCostInsteadOfBouncingAcrossIt) {
         bouncing += reversals(rows, 1000) > most_reversals ? 1 : 0;
         for (std::size_t i = 200; i < rows.size(); ++i) over += rows[i].frame_ms > 1.05 * target_ms ? 1 : 0;
     }
-    EXPECT_LE(bouncing, 1) << "a jump of a few per cent may look like noise";
+    EXPECT_LE(bouncing, seeds / 10) << "a jump of a few per cent may look like noise";
     EXPECT_LT(over / seeds / 2800, 0.05);
 }
 

@@ -82,6 +82,14 @@ TEST(DefaultLaw, RegainsItsDetailWhenALoadHasFallen) {
     EXPECT_GE(row_of("fallen-load-stepped", 30).worst.quality, 0.9) << "a level may lie 8 % below where its cost ends";
 }
 
+TEST(DefaultLaw, SettlesWithinTwentyFramesOfAnUntoldCutInEverySeed) {
+    const Row row = row_of("untold-cut", 30);
+    ASSERT_TRUE(row.worst.cost_settle_down);
+    ASSERT_TRUE(row.worst.cost_settle_up);
+    EXPECT_LE(*row.worst.cost_settle_down, 20);
+    EXPECT_LE(*row.worst.cost_settle_up, 20);
+}
+
 TEST(DefaultLaw, TakesTwiceATargetInReachInNoneOfTheFirstTenFrames) {
     for (const char* scenario : {"toy", "fallen-load", "camera-cut", "heavy-tail", "untold-cut", "slow-machine"})
         EXPECT_LE(row_of(scenario, 30).worst.first_over, 2) << scenario;
