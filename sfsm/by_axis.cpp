@@ -17,6 +17,7 @@ constexpr double much_over = 1.03;          // [aim] at which a rise has failed
 constexpr double out_of_reach_band = 0.05;  // over the aim, relative
 constexpr double finest_points = 0.99 * detail_of_points;
 constexpr double unknown_points = 0.1;  // uncertainty of what is beyond them
+constexpr double most_ahead = 16;       // [frames] that the load is foreseen, of a drift
 constexpr double retested_share = 0.5;  // of the detail
 constexpr double least_retested = 0.1;  // detail
 
@@ -39,7 +40,34 @@ void AxisLaw::observe(const FrameSample& sample) {
     const Amounts amounts = amounts_of(drawn.detail);
     if (drawn.is_retest) return hear_retest(amounts, sample.ms);
     retest_.observe(sample.ms);
-    refresh_.observe(costs_, amounts, sample.ms, aim_.target_ms);
+    observe_load(sample, amounts, drawn.detail);
+}
+
+// A load that drifts is no price: detail goes down as it grows, so that times would tell that detail costs nothing. The
+// model is told times as they would be at the load that it knows.
+void AxisLaw::observe_load(const FrameSample& sample, const Amounts& amounts, double detail) {
+    double ms = sample.ms;
+    if (costs_.is_ready() && !is_out_of_reach()) {
+        // By how much the load differs from the newest frame's, whatever has been learned of prices since.
+        const double residual = std::log(ms) - costs_.predict(amounts).log_ms;
+        if (newest_.ms > 0) newest_.log_load += residual - log_over_model(newest_);
+        const double over_model = drift_.ahead(1) - (newest_.log_load - residual);
+        const bool was_on = drift_.is_on();
+        drift_.observe(newest_.log_load, detail, costs_.noise());
+        if (drift_.is_on() && !was_on) {
+            costs_.relearn(amounts, ms);
+        } else if (drift_.is_on()) {
+            ms *= std::exp(-over_model);
+        } else if (was_on) {
+            costs_.nudge(over_model);
+        }
+        newest_ = {sample.frame, sample.ms, amounts, newest_.log_load};
+    }
+    refresh_.observe(costs_, amounts, ms, aim_.target_ms);
+}
+
+double AxisLaw::log_over_model(const Heard& heard) const {
+    return std::log(heard.ms) - costs_.predict(heard.amounts).log_ms;
 }
 
 // The model would take these times for another load. So they are kept from it, unless they prove its prices wrong.
@@ -48,9 +76,9 @@ void AxisLaw::hear_retest(const Amounts& amounts, double ms) {
     if (retest_.has_disproved(residual, costs_.noise())) costs_.relearn(amounts, ms);
 }
 
-void AxisLaw::decide() {
+void AxisLaw::decide(std::int64_t frame) {
     if (costs_.is_ready()) {
-        turn();
+        drift_.is_on() ? follow(frame) : turn();
     } else if (costs_.samples() == 0) {
         detail_ = detail_of({State::points, aim_.range, first_splat}, aim_.range);
     }
@@ -62,7 +90,7 @@ void AxisLaw::decide() {
 
 // Where the target is out of reach, the detail that is kept is believed to cost little.
 AxisLaw::Drawn AxisLaw::next_drawn() {
-    const bool is_given_up = costs_.is_ready() && detail_ > least_retested && predicted_ms(0) > aim_.target_ms;
+    const bool is_given_up = costs_.is_ready() && detail_ > least_retested && is_out_of_reach();
     aim_.status.reason = kept_reason_;
     if (!retest_.step(is_given_up, costs_.shifts())) return {{}, detail_, false};
     aim_.status.reason = "out of reach: is less detail still in vain?";
@@ -82,6 +110,24 @@ void AxisLaw::turn() {
     }
     if (detail_ != before) kept_reason_ = aim_.reason_to_move(now, aim_ms, least_ms);
     aim_.believe(costs_.predict(amounts_of(detail_)), costs_);
+}
+
+// Every frame at the detail that meets the aim under the load that is due then.
+void AxisLaw::follow(std::int64_t frame) {
+    const double ahead = std::clamp(static_cast<double>(frame - newest_.frame), 1.0, most_ahead);
+    const double log_load = drift_.ahead(ahead) - newest_.log_load + log_over_model(newest_);
+    const auto predict = [&](double detail) {
+        Prediction prediction = costs_.predict(amounts_of(detail));
+        prediction.log_ms += log_load;
+        return prediction;
+    };
+    const double least_ms = std::exp(predict(0).log_ms);
+    const double aim_ms = aim_.aim_ms(costs_, least_ms, 0);
+    const double before = detail_;
+    ceiling_.forget();
+    detail_ = detail_for(aim_ms / std::exp(log_load));
+    if (detail_ != before) kept_reason_ = aim_.reason_to_move(predict(before), aim_ms, least_ms);
+    aim_.believe(predict(detail_), costs_);
 }
 
 // The detail to turn to where `wanted` is predicted to meet the aim: less while it is known little, and no triangles
@@ -104,6 +150,10 @@ void AxisLaw::turn_to(double detail, double now_ms, double aim_ms) {
 // Detail that seems to cost nothing is kept until it clearly does.
 void AxisLaw::turn_out_of_reach(double detail, double over_aim) {
     if (detail > detail_ || over_aim > 1 + out_of_reach_band) detail_ = detail;
+}
+
+bool AxisLaw::is_out_of_reach() const {
+    return predicted_ms(0) > aim_.target_ms;
 }
 
 double AxisLaw::predicted_ms(double detail) const {

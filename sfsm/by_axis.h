@@ -7,6 +7,7 @@
 
 #include "sfsm/aim.h"
 #include "sfsm/ceiling.h"
+#include "sfsm/drift.h"
 #include "sfsm/refresh.h"
 #include "sfsm/retest.h"
 
@@ -19,8 +20,8 @@ public:
     // A frame with a usable time. Ignored while there is no range.
     void observe(const FrameSample& sample);
 
-    // Puts the decision into the aim's status; its target and range are usable.
-    void decide();
+    // Puts decision number `frame`, counted from 0, into the aim's status; its target and range are usable.
+    void decide(std::int64_t frame);
 
     // Another target: what was too dear for the old one may be tried again.
     void retarget() { ceiling_.forget(); }
@@ -32,12 +33,23 @@ private:
         bool is_retest = false;
     };
 
+    struct Heard {
+        std::int64_t frame = 0;
+        double ms = 0;  // 0: none yet
+        Amounts amounts;
+        double log_load = 0;  // of the frame, over the first one's
+    };
+
     void turn();
+    void follow(std::int64_t frame);
+    void observe_load(const FrameSample& sample, const Amounts& amounts, double detail);
     Drawn next_drawn();
     void hear_retest(const Amounts& amounts, double ms);
     double sure_detail(double wanted, double least_ms) const;
     void turn_to(double detail, double now_ms, double aim_ms);
     void turn_out_of_reach(double detail, double over_aim);
+    double log_over_model(const Heard& heard) const;
+    bool is_out_of_reach() const;
     double predicted_ms(double detail) const;
     double detail_for(double ms) const;
     Drawn drawn_as(const Decision& decision) const;
@@ -47,6 +59,8 @@ private:
     CostModel costs_;  // term 0: what every frame has; then one a step of detail
     Refresh refresh_;
     Ceiling ceiling_;
+    Drift drift_;
+    Heard newest_;
     Retest retest_;
     double detail_ = 1;
     const char* kept_reason_ = "start";  // Status::reason of what is kept between retests

@@ -31,7 +31,7 @@ Decision PredictiveLaw::decide(const FrameRequest& request) {
         if (has_forecast_) {
             by_forecast_.decide(*request.forecast, decisions_);
         } else {
-            by_axis_.decide();
+            by_axis_.decide(decisions_);
         }
     }
     ++decisions_;
