@@ -120,7 +120,7 @@ double CostModel::correct(const Seen& seen) {
             expected += gradient[i] * (before[i] - state_[i]);
             covariance[i] = dot(spread_[i], gradient, states_);
         }
-        variance = dot(covariance, gradient, states_) + noise_ * noise_;
+        variance = dot(covariance, gradient, states_) + mean_noise() * mean_noise();
         const double residual = seen.log_ms - expected;
         if (turn == 0) {
             standardised = residual / std::sqrt(variance);
@@ -140,7 +140,7 @@ double CostModel::correct(const Seen& seen) {
 // measured by the tail: up to a point, since a model that is wrong looks like a tail, too.
 double CostModel::surprise(double standardised) const {
     if (standardised <= 0) return standardised;
-    return standardised / std::clamp(tail() / (Tail::normal * noise_), 1.0, heaviest);
+    return standardised / std::clamp(tail() / (Tail::normal * mean_noise()), 1.0, heaviest);
 }
 
 // A price below its least is moved up to it. The prices that are correlated with it move along: else part of the time
@@ -166,7 +166,7 @@ void CostModel::limit() {
 }
 
 void CostModel::forget() {
-    const double walk = noise_ / gain_memory;
+    const double walk = noise() / gain_memory;
     spread_[0][0] += walk * walk;
     for (int i = 1; i < states_; ++i) {
         const double believed = belief_.spread[i - 1];
@@ -195,12 +195,13 @@ void CostModel::fold_gain() {
 // since a price that is wrong looks like one.
 void CostModel::learn_noise(const Seen& seen) {
     const Prediction prediction = predict(seen.amounts);
-    if (prediction.uncertainty > noise_) return;
+    if (prediction.uncertainty > mean_noise()) return;
     const double residual = seen.log_ms - prediction.log_ms;
-    const double difference = std::abs(residual - last_residual_);
+    const double change = residual - last_residual_, difference = std::abs(change);
     last_residual_ = residual;
-    if (prediction.uncertainty < well_known * noise_) tail_.add(residual, noise_);
+    if (prediction.uncertainty < well_known * mean_noise()) tail_.add(residual, noise());
     if (residuals_++ == 0) return;
+    memory_.add(change, noise_);
     const double step = 1 + std::max(slowest_noise, 1.0 / residuals_);
     residuals_ = std::min(residuals_, 1000);
     noise_ = difference > median_difference * noise_ ? noise_ * step : noise_ / step;
@@ -220,12 +221,12 @@ void CostModel::take_shift(int count) {
         least = std::min(least, residual);
         most = std::max(most, residual);
     }
-    if (count == 2 && most - least > disagreement * noise_) return;
+    if (count == 2 && most - least > disagreement * mean_noise()) return;
     detector_.clear();
     ++shifts_;
     const double log_gain = state_[0], variance = spread_[0][0];
     for (int i = 0; i < states_; ++i) spread_[0][i] = spread_[i][0] = 0;
-    spread_[0][0] = least * least + noise_ * noise_;
+    spread_[0][0] = least * least + mean_noise() * mean_noise();
     for (int i = count; i >= 1; --i) correct(newest(i));
     if (left_variance_ >= 0) recall(left_log_gain_, left_variance_);
     left_log_gain_ = log_gain;
@@ -237,7 +238,7 @@ void CostModel::recall(double log_gain, double variance) {
     const double likely = likeness * std::sqrt(spread_[0][0] + variance);
     if (std::abs(state_[0] - log_gain) > std::min(likely, most_recall)) return;
     const double residual = log_gain - state_[0];
-    const double total = spread_[0][0] + variance + noise_ * noise_ / recall_worth;
+    const double total = spread_[0][0] + variance + mean_noise() * mean_noise() / recall_worth;
     Vector covariance = spread_[0];
     for (int i = 0; i < states_; ++i) {
         state_[i] += covariance[i] / total * residual;

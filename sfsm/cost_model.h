@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 
+#include "sfsm/noise_memory.h"
 #include "sfsm/shift.h"
 #include "sfsm/tail.h"
 
@@ -56,12 +57,12 @@ public:
     // Two times have arrived; one alone may be the hitch of a program's first frame.
     bool is_ready() const { return samples_ >= 2; }
 
-    double gain() const;                             // 1 at the start
-    double price(int term) const;                    // [ms] per unit of amount, gain left out
-    double price_uncertainty(int term) const;        // 1 sigma [ms]
-    double noise() const { return noise_; }          // 1 sigma of a single frame, relative
-    double tail() const { return tail_.excess(); }   // Tail::percentile of ln(time / prediction)
-    std::int64_t shifts() const { return shifts_; }  // of level, that were found so far
+    double gain() const;                                            // 1 at the start
+    double price(int term) const;                                   // [ms] per unit of amount, gain left out
+    double price_uncertainty(int term) const;                       // 1 sigma [ms]
+    double noise() const { return noise_ * memory_.of_a_frame(); }  // 1 sigma of a single frame, relative
+    double tail() const { return tail_.excess(); }                  // Tail::percentile of ln(time / prediction)
+    std::int64_t shifts() const { return shifts_; }                 // of level, that were found so far
     std::int64_t samples() const { return samples_; }
 
     // Moves ln gain by so much.
@@ -81,6 +82,8 @@ private:
     double correct(const Seen& seen);
     double surprise(double standardised) const;
     bool is_strange(const Seen& seen) const;
+    // Of noise without memory of which a mean of frames is as uncertain.
+    double mean_noise() const { return noise_ * memory_.of_a_mean(); }
     void limit();
     void forget();
     void fold_gain();
@@ -93,13 +96,14 @@ private:
     Vector state_{};                            // ln gain, then prices in units of scale_
     std::array<Vector, most_states> spread_{};  // their covariance
     double log_scale_ = 0;                      // ln [ms] per unit of amount at price 1
-    double noise_ = 0;
+    double noise_ = 0;                          // 1 sigma of the differences of neighbours / sqrt(2)
     double last_residual_ = 0;
     int strange_ = 0;    // times in a row that were absurdly off
     int residuals_ = 0;  // that told of the noise so far; counts to a few hundred
     std::int64_t samples_ = 0;
     std::int64_t shifts_ = 0;
     double left_log_gain_ = 0, left_variance_ = -1;  // of the level before the last shift; < 0: there was none
+    NoiseMemory memory_;
     Tail tail_;
     ShiftDetector detector_;
     std::array<Seen, ShiftDetector::window> recent_{};  // a ring
