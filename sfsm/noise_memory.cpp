@@ -25,14 +25,8 @@ void NoiseMemory::add(double difference, double noise) {
     const double found = squares_ > 0 ? 1 + 2 * products_ / squares_ : 0;
     const bool is_known = heard_ >= enough && found >= sure && noise >= exact;
     correlation_ = is_known ? std::min(found, most) : 0;
-}
-
-double NoiseMemory::of_a_frame() const {
-    return std::sqrt(1 / (1 - correlation_));
-}
-
-double NoiseMemory::of_a_mean() const {
-    return of_a_frame() * std::sqrt((1 + correlation_) / (1 - correlation_));
+    of_a_frame_ = std::sqrt(1 / (1 - correlation_));
+    of_a_mean_ = of_a_frame_ * std::sqrt((1 + correlation_) / (1 - correlation_));
 }
 
 }  // namespace sfsm

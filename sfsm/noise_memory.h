@@ -17,15 +17,16 @@ public:
     double correlation() const { return correlation_; }
 
     // [sigmas of the differences / sqrt(2)] one frame's noise.
-    double of_a_frame() const;
+    double of_a_frame() const { return of_a_frame_; }
 
     // The same of noise without memory of which a mean of many frames is as uncertain.
-    double of_a_mean() const;
+    double of_a_mean() const { return of_a_mean_; }
 
 private:
     double last_ = 0;
     double squares_ = 0, products_ = 0;  // slow means, of differences and of neighbours
     double correlation_ = 0;
+    double of_a_frame_ = 1, of_a_mean_ = 1;
     int heard_ = 0;
 };
 
