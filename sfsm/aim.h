@@ -10,7 +10,8 @@ namespace sfsm {
 
 struct Aim {
     PredictiveOptions options;
-    double target_ms = 0;  // 0: none yet
+    double asked_ms = 0;   // the target that was asked for; 0: none yet
+    double target_ms = 0;  // what can be had for it: the next refresh that fits, or an outside cap that is slower
     double range = 0;      // L [m]; 0: none yet
     Status status;
 

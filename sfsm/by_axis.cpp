@@ -18,6 +18,7 @@ constexpr double out_of_reach_band = 0.05;  // over the aim, relative
 constexpr double finest_points = 0.99 * detail_of_points;
 constexpr double unknown_points = 0.1;  // uncertainty of what is beyond them
 constexpr double most_ahead = 16;       // [frames] that the load is foreseen, of a drift
+constexpr double clearly = 1.01;        // [target] that a cap is slower
 constexpr double retested_share = 0.5;  // of the detail
 constexpr double least_retested = 0.1;  // detail
 
@@ -38,32 +39,28 @@ void AxisLaw::observe(const FrameSample& sample) {
     if (aim_.range <= 0) return;
     const Drawn drawn = drawn_as(sample.decision);
     const Amounts amounts = amounts_of(drawn.detail);
-    if (drawn.is_retest) return hear_retest(amounts, sample.ms);
-    retest_.observe(sample.ms);
-    observe_load(sample, amounts, drawn.detail);
+    if (drawn.is_retest && !refresh_.is_waiting()) return hear_retest(amounts, sample.ms);
+    refresh_.observe(costs_, amounts, {sample.ms, ms_of_known_load(sample, amounts, drawn.detail)}, aim_.asked_ms);
 }
 
-// A load that drifts is no price: detail goes down as it grows, so that times would tell that detail costs nothing. The
-// model is told times as they would be at the load that it knows.
-void AxisLaw::observe_load(const FrameSample& sample, const Amounts& amounts, double detail) {
-    double ms = sample.ms;
-    if (costs_.is_ready() && !is_out_of_reach()) {
-        // By how much the load differs from the newest frame's, whatever has been learned of prices since.
-        const double residual = std::log(ms) - costs_.predict(amounts).log_ms;
-        if (newest_.ms > 0) newest_.log_load += residual - log_over_model(newest_);
-        const double over_model = drift_.ahead(1) - (newest_.log_load - residual);
-        const bool was_on = drift_.is_on();
-        drift_.observe(newest_.log_load, detail, costs_.noise());
-        if (drift_.is_on() && !was_on) {
-            costs_.relearn(amounts, ms);
-        } else if (drift_.is_on()) {
-            ms *= std::exp(-over_model);
-        } else if (was_on) {
-            costs_.nudge(over_model);
-        }
-        newest_ = {sample.frame, sample.ms, amounts, newest_.log_load};
+// A load that drifts is no price: detail goes down as it grows, so that times would tell that detail costs nothing. So
+// the model is told times as they would be at the load that it knows.
+double AxisLaw::ms_of_known_load(const FrameSample& sample, const Amounts& amounts, double detail) {
+    if (!costs_.is_ready() || is_out_of_reach() || refresh_.is_waiting()) return sample.ms;
+    // By how much the load differs from the newest frame's, whatever has been learned of prices since.
+    const double residual = std::log(sample.ms) - costs_.predict(amounts).log_ms;
+    if (newest_.ms > 0) newest_.log_load += residual - log_over_model(newest_);
+    newest_ = {sample.frame, sample.ms, amounts, newest_.log_load};
+    const double over_model = drift_.ahead(1) - (newest_.log_load - residual);
+    const bool was_on = drift_.is_on();
+    drift_.observe(newest_.log_load, detail, costs_.noise());
+    if (drift_.is_on() && was_on) return sample.ms * std::exp(-over_model);
+    if (drift_.is_on()) {
+        costs_.relearn(amounts, sample.ms);
+    } else if (was_on) {
+        costs_.nudge(over_model);
     }
-    refresh_.observe(costs_, amounts, ms, aim_.target_ms);
+    return sample.ms;
 }
 
 double AxisLaw::log_over_model(const Heard& heard) const {
@@ -73,12 +70,13 @@ double AxisLaw::log_over_model(const Heard& heard) const {
 // The model would take these times for another load. So they are kept from it, unless they prove its prices wrong.
 void AxisLaw::hear_retest(const Amounts& amounts, double ms) {
     const double residual = std::log(ms) - costs_.predict(amounts).log_ms;
-    if (retest_.has_disproved(residual, costs_.noise())) costs_.relearn(amounts, ms);
+    if (reach_retest_.has_disproved(residual, costs_.noise())) costs_.relearn(amounts, ms);
 }
 
 void AxisLaw::decide(std::int64_t frame) {
+    aim_.target_ms = refresh_.due_ms(aim_.asked_ms);
     if (costs_.is_ready()) {
-        drift_.is_on() ? follow(frame) : turn();
+        is_following() ? follow(frame) : turn();
     } else if (costs_.samples() == 0) {
         detail_ = detail_of({State::points, aim_.range, first_splat}, aim_.range);
     }
@@ -88,12 +86,17 @@ void AxisLaw::decide(std::int64_t frame) {
     aim_.status.decision = drawn.decision;
 }
 
-// Where the target is out of reach, the detail that is kept is believed to cost little.
+// Where the target is out of reach, the detail that is kept is believed to cost little; under a cap, nothing.
 AxisLaw::Drawn AxisLaw::next_drawn() {
-    const bool is_given_up = costs_.is_ready() && detail_ > least_retested && is_out_of_reach();
+    const bool has_less = costs_.is_ready() && detail_ > least_retested;
+    const bool is_capped = refresh_.is_capped() && aim_.target_ms > clearly * aim_.asked_ms;
+    const bool is_given_up = !refresh_.is_waiting() && has_less && is_out_of_reach();
+    const bool is_reach_tested = reach_retest_.step(is_given_up, costs_.shifts());
+    const bool is_cap_tested = cap_retest_.step(has_less && is_capped, costs_.shifts());
     aim_.status.reason = kept_reason_;
-    if (!retest_.step(is_given_up, costs_.shifts())) return {{}, detail_, false};
-    aim_.status.reason = "out of reach: is less detail still in vain?";
+    if (!is_reach_tested && !is_cap_tested) return {{}, detail_, false};
+    aim_.status.reason =
+        is_cap_tested ? "frames wait: is less detail still in vain?" : "out of reach: is less detail still in vain?";
     return {{}, retested_share * detail_, true};
 }
 
@@ -101,7 +104,7 @@ void AxisLaw::turn() {
     const double least_ms = predicted_ms(0);
     const double aim_ms = aim_.aim_ms(costs_, least_ms, 0);
     const Prediction now = costs_.predict(amounts_of(detail_));
-    ceiling_.step(predicted_ms(ceiling_.floor()), predicted_ms(ceiling_.top()), std::log(aim_ms) - now.log_ms);
+    ceiling_.step(predicted_ms(ceiling_.floor()), std::log(aim_ms) - now.log_ms);
     const double before = detail_;
     if (least_ms > aim_.target_ms) {
         turn_out_of_reach(detail_for(aim_ms), std::exp(now.log_ms) / aim_ms);
@@ -140,16 +143,23 @@ double AxisLaw::sure_detail(double wanted, double least_ms) const {
 }
 
 void AxisLaw::turn_to(double detail, double now_ms, double aim_ms) {
-    if (detail > detail_) {
+    if (refresh_.is_waiting()) {
+        detail_ = detail;
+    } else if (detail > detail_) {
         detail_ = ceiling_.rise(detail_, detail, now_ms);
     } else if (detail < detail_) {
-        detail_ = now_ms > much_over * aim_ms ? ceiling_.fall(detail_, detail, now_ms) : detail;
+        detail_ = now_ms > much_over * aim_ms ? ceiling_.fall(detail_, detail) : detail;
     }
 }
 
 // Detail that seems to cost nothing is kept until it clearly does.
 void AxisLaw::turn_out_of_reach(double detail, double over_aim) {
     if (detail > detail_ || over_aim > 1 + out_of_reach_band) detail_ = detail;
+}
+
+// Times of frames that wait don't tell how the load drifts.
+bool AxisLaw::is_following() const {
+    return drift_.is_on() && !refresh_.is_waiting();
 }
 
 bool AxisLaw::is_out_of_reach() const {

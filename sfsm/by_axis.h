@@ -42,13 +42,14 @@ private:
 
     void turn();
     void follow(std::int64_t frame);
-    void observe_load(const FrameSample& sample, const Amounts& amounts, double detail);
+    double ms_of_known_load(const FrameSample& sample, const Amounts& amounts, double detail);
     Drawn next_drawn();
     void hear_retest(const Amounts& amounts, double ms);
     double sure_detail(double wanted, double least_ms) const;
     void turn_to(double detail, double now_ms, double aim_ms);
     void turn_out_of_reach(double detail, double over_aim);
     double log_over_model(const Heard& heard) const;
+    bool is_following() const;
     bool is_out_of_reach() const;
     double predicted_ms(double detail) const;
     double detail_for(double ms) const;
@@ -61,7 +62,7 @@ private:
     Ceiling ceiling_;
     Drift drift_;
     Heard newest_;
-    Retest retest_;
+    Retest reach_retest_{256}, cap_retest_{2048};
     double detail_ = 1;
     const char* kept_reason_ = "start";  // Status::reason of what is kept between retests
     std::array<Drawn, 16> drawn_{};      // the newest decisions; L may have moved since, so each with its detail

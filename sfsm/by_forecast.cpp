@@ -24,11 +24,12 @@ constexpr int longest_wait = 24;           // decisions until a probe's time is 
 void ForecastLaw::observe(const FrameSample& sample) {
     const bool is_counted = std::ranges::any_of(sample.work.counts, [](std::int64_t count) { return count > 0; });
     if (!is_counted) return;
-    model_.observe(sample, aim_.target_ms);
+    model_.observe(sample, aim_.asked_ms);
     if (sample.decision == probe_.decision) probe_.age = 0;
 }
 
 void ForecastLaw::decide(const Forecast& forecast, std::int64_t frame) {
+    aim_.target_ms = model_.due_ms(aim_.asked_ms);
     if (forecast.rates.empty()) {
         decide_among(PairPlans(forecast, aim_.range), frame);
     } else {

@@ -12,8 +12,9 @@ constexpr double much_to_spare = 0.1;               // [ln] of time
 constexpr int hurry = 8;                            // decisions that one counts for while there is so much
 constexpr int hopeless = 128;                       // [decisions] patience from which on nothing hurries
 constexpr double narrow = 0.01;                     // of detail: not worth a rise below a ceiling
-constexpr double fallen = 0.9;                      // share of the time by which load is found to have fallen
-constexpr double disproved = 0.8;                   // share of the time by which a ceiling is found not to be slow
+constexpr int held = 6;                             // decisions at the floor after a failure
+constexpr int settled = 10;                         // decisions after it from which on predictions are of use
+constexpr double fallen = 0.85;                     // share of the time by which load is found to have fallen
 
 }  // namespace
 
@@ -31,12 +32,12 @@ double Ceiling::rise(double from, double to, double ms_at_from) {
     return to;
 }
 
-double Ceiling::fall(double at, double to, double ms_at) {
+double Ceiling::fall(double at, double to) {
+    if (lasts_ > 0 && since_failure_ < held && at == floor_) return at;
     if (age_ > trial || at != to_ || at <= from_) return to;
     const bool is_confirmed = failures_ > 0 ? lasts_ > unconfirmed : from_ < suspect_;
     lasts_ = is_confirmed ? longest : unconfirmed;
     ceiling_ = suspect_ = at;
-    top_ms_ = ms_at;
     floor_ = from_;
     floor_ms_ = ms_;
     wait_ = patience_;
@@ -47,14 +48,16 @@ double Ceiling::fall(double at, double to, double ms_at) {
     return to_;
 }
 
-void Ceiling::step(double ms_at_floor, double ms_at_top, double to_spare) {
+void Ceiling::step(double ms_at_floor, double to_spare) {
     if (age_ <= trial) ++age_;
-    if (since_failure_ <= trial) ++since_failure_;
+    if (since_failure_ < trial) {
+        ++since_failure_;
+        if (since_failure_ >= settled) floor_ms_ = std::max(floor_ms_, ms_at_floor);
+    }
     const bool is_hurrying = to_spare > much_to_spare && patience_ <= hopeless;
     wait_ = std::max(wait_ - (is_hurrying ? hurry : 1), 0);
     if (lasts_ == 0) return;
-    const bool has_fallen = ms_at_floor < fallen * floor_ms_ || ms_at_top < disproved * top_ms_;
-    if (since_failure_ > trial && has_fallen) return forget();
+    if (since_failure_ == trial && ms_at_floor < fallen * floor_ms_) return forget();
     if (--lasts_ == 0) lift();
 }
 

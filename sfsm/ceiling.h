@@ -3,35 +3,35 @@
 // believes in a smooth cost would bounce across the jump for ever.
 #pragma once
 
-#include <algorithm>
-
 namespace sfsm {
 
 // For details in [0, 1] and predicted times.
 // - A rise is on trial for 24 decisions. If it turns out slow, its detail becomes the ceiling.
-// - The law then falls to the detail it now predicts to fit, at most back to where the rise began. If that is slow too,
-//   it falls at least half the way back.
+// - The law then falls to the detail it now predicts to fit, at most back to where the rise began, and for six
+// decisions
+//   no lower: until a few times are heard from there, what the failure taught is believed of all details. If that is
+//   slow too, it falls at least half the way back.
 // - Below a ceiling a rise goes only half the way up to it. The wait before the next rise doubles with each failure; it
 //   passes eight times as fast while a tenth of the time is to spare, until a few rises in a row have failed.
 // - A ceiling lasts 64 decisions, as a few slow frames may have made it by chance. One that the next rise confirms,
 // from
 //   below it, lasts 1024.
-// - It is forgotten when the load has fallen: when the floor, where the rise began that made it, takes a tenth less
-//   than then; or when its own detail is predicted to take a fifth less than what was too slow.
+// - It is forgotten when the load has fallen: when the floor, where the rise began that made it, takes 15 % less than
+//   then. What it took is the most that is predicted for it before the rise and from ten to 24 decisions after the
+//   failure; sooner, predictions are of no use.
 class Ceiling {
 public:
     // A rise that is predicted to fit: the detail to rise to, at most `to`. `from` itself: not now.
     double rise(double from, double to, double ms_at_from);
 
-    // Detail `at` is predicted slow, to take `ms_at`; `to` is predicted to fit: the detail to fall to.
-    double fall(double at, double to, double ms_at);
+    // Detail `at` is predicted slow, `to` to fit: the detail to fall to.
+    double fall(double at, double to);
 
-    // Once a decision, with the times [ms] that are now predicted for floor() and top(). `to_spare`: ln(aim / the time
-    // predicted for what is drawn).
-    void step(double ms_at_floor, double ms_at_top, double to_spare);
+    // Once a decision, with the time [ms] that is now predicted for floor(). `to_spare`: ln(aim / the time predicted
+    // for what is drawn).
+    void step(double ms_at_floor, double to_spare);
 
     double floor() const { return floor_; }
-    double top() const { return std::min(ceiling_, 1.0); }  // the ceiling; 1: there is none
 
     void forget();
 
@@ -44,8 +44,7 @@ private:
     int failures_ = 0;          // of it
 
     double ceiling_ = 2;               // a detail that failed; over 1: none has
-    double top_ms_ = 0;                // predicted for it then
-    double floor_ = 0, floor_ms_ = 0;  // from_ and ms_ of the rise to it
+    double floor_ = 0, floor_ms_ = 0;  // where the rise to it began, and what that took then
     double suspect_ = 0;               // the newest ceiling, even if it lasts no more; 0: none
     int lasts_ = 0;                    // [decisions] until the ceiling is lifted
     int since_failure_ = 0;            // [decisions]

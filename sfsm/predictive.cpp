@@ -22,12 +22,12 @@ void PredictiveLaw::observe(const FrameSample& sample) {
 
 Decision PredictiveLaw::decide(const FrameRequest& request) {
     if (is_usable(request.target_ms)) {
-        if (request.target_ms != aim_.target_ms) by_axis_.retarget();
-        aim_.status.target_ms = aim_.target_ms = request.target_ms;
+        if (request.target_ms != aim_.asked_ms) by_axis_.retarget();
+        aim_.status.target_ms = aim_.asked_ms = request.target_ms;
     }
     if (is_usable(request.range)) aim_.range = request.range;
     has_forecast_ = request.forecast && !request.forecast->motion.empty() && !request.forecast->shapes.empty();
-    if (aim_.target_ms > 0 && aim_.range > 0) {
+    if (aim_.asked_ms > 0 && aim_.range > 0) {
         if (has_forecast_) {
             by_forecast_.decide(*request.forecast, decisions_);
         } else {

@@ -7,18 +7,10 @@
 namespace sfsm {
 namespace {
 
-constexpr double same = 1e-6;            // [share] by which equal times may differ
-constexpr int convincing = 4;            // [times] in a row that must be equal
 constexpr double least_surprise = 0.05;  // [ln] and
 constexpr double sure = 4;               // [standard errors] below what was believed
 
 }  // namespace
-
-void Retest::observe(double ms) {
-    equal_ = std::abs(ms - last_ms_) <= same * ms ? std::min(equal_ + 1, convincing) : 0;
-    last_ms_ = ms;
-    if (equal_ == convincing) is_waiting_ = true;
-}
 
 void Retest::begin_anew() {
     wait_ = patience_ = first_wait;
@@ -26,16 +18,15 @@ void Retest::begin_anew() {
 }
 
 bool Retest::step(bool is_due, std::int64_t shifts) {
-    if (!is_due) is_waiting_ = false;
     if (!is_due || shifts != shifts_) begin_anew();
     shifts_ = shifts;
-    if (!is_due || is_waiting_) return false;
+    if (!is_due) return false;
     if (left_ > 0) {
         --left_;
         return true;
     }
     if (--wait_ > 0) return false;
-    wait_ = patience_ = std::min(2 * patience_, longest_wait);
+    wait_ = patience_ = std::min(2 * patience_, longest_wait_);
     left_ = frames - 1;
     heard_ = 0;
     return true;

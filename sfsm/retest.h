@@ -8,13 +8,12 @@
 
 namespace sfsm {
 
-// A retest is three decisions long. The first begins with the 64th decision, the next with the 128th after it, all
-// later ones with the 256th; a new load begins the waits anew. So at most 3 of 66 frames are drawn coarser for it, and
-// 3 of 258 in the long run. There is none where frames wait for a cap or a display: equal times don't tell of load.
+// A retest is three decisions long. The first begins with the 64th decision, the next with the 128th after it, and so
+// on up to the longest wait; a new load begins the waits anew. So at most 3 of 66 frames are drawn coarser for it, and
+// in the long run 3 of 258 if the longest wait is 256.
 class Retest {
 public:
-    // A time [ms] of what is kept.
-    void observe(double ms);
+    explicit Retest(int longest_wait) : longest_wait_(longest_wait) {}  // [decisions], at least 64
 
     // Once a decision. `is_due`: out of reach, and there is less detail to test. `shifts`: how often the load has
     // changed so far. Whether this decision is one of a retest.
@@ -26,19 +25,17 @@ public:
 
 private:
     static constexpr int frames = 3;  // of a retest
-    static constexpr int first_wait = 64, longest_wait = 256;
+    static constexpr int first_wait = 64;
 
     void begin_anew();
 
+    int longest_wait_;
     int wait_ = first_wait;  // [decisions] until the next
     int patience_ = first_wait;
     int left_ = 0;  // [decisions] of the one that is being drawn
     std::int64_t shifts_ = 0;
     std::array<double, frames> residuals_{};
     int heard_ = frames;
-    double last_ms_ = 0;
-    int equal_ = 0;  // equal times in a row, counted to a few
-    bool is_waiting_ = false;
 };
 
 }  // namespace sfsm

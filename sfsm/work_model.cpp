@@ -53,7 +53,7 @@ void WorkModel::observe(const FrameSample& sample, double target_ms) {
     }
     const Amounts amounts = amounts_of(sample.work);
     if (costs_.is_ready()) foresight_.observe(sample, amounts, costs_);
-    refresh_.observe(costs_, amounts, sample.ms, target_ms);
+    refresh_.observe(costs_, amounts, {sample.ms, sample.ms}, target_ms);
 }
 
 void WorkModel::foresee(std::int64_t frame, const Decision& decision, const Plan& plan) {

@@ -28,6 +28,9 @@ public:
     Prices prices() const;                       // gain included
     Prices foreseen_prices() const;              // of what a forecast says will be drawn: its error included
 
+    // What can be had for a target [ms] (refresh.h).
+    double due_ms(double target_ms) const { return refresh_.due_ms(target_ms); }
+
     const CostModel& costs() const { return costs_; }
 
 private:
@@ -39,7 +42,7 @@ private:
     CostModel costs_;          // term 0: what every frame has; then one a kind of work
     double frame_amount_ = 0;  // of term 0; 0 until work has been seen
     Foresight foresight_;
-    Refresh refresh_;
+    Refresh refresh_{Refresh::Evidence::but_work};
 };
 
 // Times [ms] to plan by while nothing is known: a slow machine's that draws so.

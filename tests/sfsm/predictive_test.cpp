@@ -161,6 +161,37 @@ TEST(PredictiveLaw, StopsAtAStepInCostInsteadOfBouncingAcrossIt) {
     EXPECT_LT(over / seeds / 2800, 0.05);
 }
 
+// Costs that jump between two details look like a cap on the frame rate, or like a load that falls.
+TEST(PredictiveLaw, NeitherStaysAboveNorBouncesOnStairsOfAnyShape) {
+    constexpr int seeds = 100;
+    constexpr std::int64_t load_frames = 1200, settled = 400, frames = 3 * load_frames;
+    int stuck = 0;
+    double over = 0;
+    for (int seed = 1; seed <= seeds; ++seed) {
+        std::mt19937_64 random(seed);
+        const int steps = 2 + static_cast<int>(uniform(random, 0, 9));
+        std::vector<double> levels{uniform(random, 0.3, 0.6)};
+        for (int i = 0; i < steps; ++i) levels.push_back(levels.back() + uniform(random, 0, 3.2 / steps));
+        const Curve stairs = [=](double detail) {
+            return levels[static_cast<std::size_t>(std::floor(detail * steps + 1e-9))];
+        };
+        const std::array<double, 3> loads{1, uniform(random, 0.7, 1.4), uniform(random, 0.8, 1.3)};
+        const Load load = [=](std::int64_t frame) { return loads[static_cast<std::size_t>(frame / load_frames)]; };
+        const double noise = std::exp(uniform(random, std::log(0.002), std::log(0.03)));
+        double late = 0;
+        for (const TraceRow& row : run_knob(knob(stairs, load, noise, static_cast<std::uint64_t>(seed)), frames, 2)) {
+            const bool is_reachable = load(row.frame) * levels[0] < 0.95;
+            const bool is_late = row.frame_ms > 1.03 * std::exp(2 * noise) * target_ms;
+            if (row.frame % load_frames >= settled && is_reachable && is_late)
+                late += 1.0 / static_cast<double>(3 * (load_frames - settled));
+        }
+        over += late / seeds;
+        stuck += late > 0.5 ? 1 : 0;
+    }
+    EXPECT_EQ(stuck, 0);
+    EXPECT_LT(over, 0.045);
+}
+
 TEST(PredictiveLaw, NoFirstFrameIsFinerThanPointsOfFourTimesTheFinest) {
     PredictiveLaw law;
     const Decision first = law.decide({target_ms, test_range});
@@ -208,7 +239,7 @@ TEST(PredictiveLaw, GivesDetailBackWhereItBuysNothing) {
     const Time cpu_bound = [](std::int64_t, const Decision&) { return 1.5 * target_ms; };
     const auto rows = run_knob(cpu_bound, 600, 2);
     EXPECT_GT(detail_of(rows.back().decision, test_range), 0.9);
-    EXPECT_EQ(changes(rows, 300, rows.size()), 0);
+    EXPECT_LE(changes(rows, 300, rows.size()), 2) << "one retest, which changes nothing";
 }
 
 // Times in whole refreshes say nothing of the time to spare; detail is sought until a few frames are late.
