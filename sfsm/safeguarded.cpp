@@ -174,6 +174,7 @@ void weigh(Memory& m, const Constants& c) {
     if (m.verdict != Verdict::fine || m.dwell.times == c.settled) learn_slope(m, c);
     if (m.verdict == Verdict::fine) {
         m.quiet = std::min(m.quiet + 1, c.settled);
+        if (m.quiet >= c.settled) m.is_doubted = false;
         return;
     }
     narrow_bracket(m, c);
@@ -227,6 +228,12 @@ bool fast_below_a_jump(const Memory& m, const Constants&) {
     return m.verdict == Verdict::fast && is_bracketed(m) && m.since_points >= m.wait;
 }
 
+// A jump so high may be a load that came and went meanwhile.
+bool fast_below_a_doubtful_jump(const Memory& m, const Constants& c) {
+    const bool is_known = m.is_doubted || m.hold > c.hold;
+    return fast_below_a_jump(m, c) && !is_known && m.slow_end.level - m.fast_end.level > c.doubted_jump;
+}
+
 // Even the coarsest has not helped.
 bool slow_without_gain(const Memory& m, const Constants& c) {
     return m.verdict == Verdict::slow && m.detail == 0 && m.top.is_known && m.dwell.times >= c.settled &&
@@ -276,6 +283,11 @@ void hold_here(Memory& m, const Constants&) {
     hold_level(m, m.dwell.level);
 }
 
+void measure_again(Memory& m, const Constants&) {
+    forget_bracket(m);
+    m.is_doubted = true;
+}
+
 void give_back(Memory& m, const Constants& c) {
     hold_level(m, m.top.level);
     m.next = m.top.detail;
@@ -297,6 +309,9 @@ constexpr SafeguardedTransition transitions[] = {
     {"", s1, s1, slow_towards_distance, move, "slow", "D by the secant, inside the bracket", "slow: D down"},
     {"", s1, s1, fast_towards_distance, move, "fast", "D by the secant, inside the bracket", "fast: D up"},
     {"", s1, s1, held, stay, "held", "stay", "held: waiting in state 1"},
+    {"", s1, s1, fast_below_a_doubtful_jump, measure_again,
+     "fast, and all finer detail was slow by more than a factor of 2", "forget the bracket, once",
+     "fast, anything finer was very slow: once more"},
     {"", s1, s1, fast_below_a_jump, hold_here, "fast, and all finer detail is slow", "hold",
      "fast, anything finer is slow: hold D"},
     {"", s1, s1, always, stay, "else", "stay", "D: no miss beyond the noise"},
@@ -314,6 +329,9 @@ constexpr SafeguardedTransition transitions[] = {
     {"", s2, s2, slow_towards_points, move, "slow", "S by the secant, inside the bracket", "slow: S up"},
     {"", s2, s2, fast_towards_points, move, "fast", "S by the secant, inside the bracket", "fast: S down"},
     {"", s2, s2, held, stay, "held", "stay", "held: waiting in state 2"},
+    {"", s2, s2, fast_below_a_doubtful_jump, measure_again,
+     "fast, and all finer detail was slow by more than a factor of 2", "forget the bracket, once",
+     "fast, anything finer was very slow: once more"},
     {"", s2, s2, fast_below_a_jump, hold_here, "fast, and all finer detail is slow", "hold",
      "fast, anything finer is slow: hold S"},
     {"", s2, s2, always, stay, "else", "stay", "S: no miss beyond the noise"},
@@ -361,6 +379,7 @@ void SafeguardedConstants::validate() const {
     require(blind_step > 0 && blind_step < 1.0 / 3, "blind_step in (0, 1/3)");
     require(no_gain > 0 && no_gain < 1, "no_gain in (0, 1)");
     require(same_level > 0 && same_level < 1, "same_level in (0, 1)");
+    require(doubted_jump > 0, "doubted_jump over 0");
     require(least_width > 0 && least_width < 0.1, "least_width in (0, 0.1)");
     require(return_margin >= 0 && return_margin < 1.0 / 3, "return_margin in [0, 1/3)");
     require(first_patience >= 1, "first_patience from 1");

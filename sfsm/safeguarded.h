@@ -23,6 +23,7 @@ struct SafeguardedConstants {
     double no_gain = 0.05;        // [share of time] detail that gains less than this is given back, (0, 1)
     double same_level = 0.05;     // [share of time] a hold ends when times have moved by more, (0, 1)
     double least_width = 0.002;   // [detail] a bracket this narrow has a jump in it, (0, 0.1)
+    double doubted_jump = 0.75;   // [log T] a higher one is measured twice: its slow end may be of another load, > 0
     double return_margin = 0.01;  // [detail] over 2/3 that a return from state 2 needs, [0, 1/3)
     int first_patience = 16;      // [times] to wait after a failed return from state 2, doubled by each, >= 1
     int trial = 64;               // [times] that a return from state 2 must last, or it has failed, >= 1
@@ -70,6 +71,7 @@ struct SafeguardedMemory {
     Cost before;              // the point that the next slope is measured from
     Cost top;                 // the point that the search for less detail began at
     bool is_blind = false;    // the last step in state 1 had no effect
+    bool is_doubted = false;  // the jump that was found last is being measured again
     bool is_held = false;     // nothing better is near: wait
     bool is_trial = false;    // the hold has lasted long enough: try the slow end again
     double held_level = 0;    // [log ms] of the times when the hold began

@@ -1,4 +1,4 @@
-// What the default law reaches on a scenario, on fewer seeds than the scorecard has.
+// What a law reaches on a scenario, on fewer seeds than the scorecard has.
 #pragma once
 
 #include <string>
@@ -10,16 +10,19 @@ namespace sfsm::simulate {
 
 inline constexpr int some_seeds = 9;
 
-inline Contestant the_default() {
-    const std::string name(law_names().front());
-    return {name, [=](const Course&) { return make_controller(name); }, false};
+inline Contestant contestant(const std::string& law) {
+    return {law, [=](const Course&) { return make_controller(law); }, false};
 }
 
-inline Row row_of(Scenario scenario, int seeds = some_seeds) {
+inline Contestant the_default() {
+    return contestant(std::string(law_names().front()));
+}
+
+inline Row row_of(Scenario scenario, int seeds = some_seeds, const Contestant& law = the_default()) {
     ScorecardOptions options;
     options.scenarios = {std::move(scenario)};
-    options.laws = {the_default()};
-    options.reference = the_default();
+    options.laws = {law};
+    options.reference = law;
     options.seeds = seeds;
     return scorecard(options).front();
 }
