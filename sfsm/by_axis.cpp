@@ -21,6 +21,7 @@ constexpr double most_ahead = 16;       // [frames] that the load is foreseen, o
 constexpr double clearly = 1.01;        // [target] that a cap is slower
 constexpr double retested_share = 0.5;  // of the detail
 constexpr double least_retested = 0.1;  // detail
+constexpr double near_by = 2;           // [sigmas] from what was predicted
 
 Amounts amounts_of(double detail) {
     Amounts amounts;
@@ -67,10 +68,15 @@ double AxisLaw::log_over_model(const Heard& heard) const {
     return std::log(heard.ms) - costs_.predict(heard.amounts).log_ms;
 }
 
-// The model would take these times for another load. So they are kept from it, unless they prove its prices wrong.
+// Times that are far from what was predicted would be taken for another load. So those are kept from the model, unless
+// they prove its prices wrong.
 void AxisLaw::hear_retest(const Amounts& amounts, double ms) {
     const double residual = std::log(ms) - costs_.predict(amounts).log_ms;
-    if (reach_retest_.has_disproved(residual, costs_.noise())) costs_.relearn(amounts, ms);
+    if (reach_retest_.has_disproved(residual, costs_.noise())) {
+        costs_.relearn(amounts, ms);
+    } else if (std::abs(residual) < near_by * costs_.noise()) {
+        costs_.observe(amounts, ms);
+    }
 }
 
 void AxisLaw::decide(std::int64_t frame) {
