@@ -71,6 +71,7 @@ void CostModel::start(const Amounts& amounts, double ms) {
     state_.fill(1);
     state_[0] = 0;
     log_scale_ = std::log(ms) - std::log(std::accumulate(amounts.of.begin(), amounts.of.begin() + amounts.terms, 0.0));
+    scale_ = std::exp(log_scale_);
 }
 
 void CostModel::observe(const Amounts& amounts, double ms) {
@@ -262,11 +263,11 @@ double CostModel::gain() const {
 }
 
 double CostModel::price(int term) const {
-    return std::exp(log_scale_) * state_[term + 1];
+    return scale_ * state_[term + 1];
 }
 
 double CostModel::price_uncertainty(int term) const {
-    return std::exp(log_scale_) * std::sqrt(std::max(spread_[term + 1][term + 1], 0.0));
+    return scale_ * std::sqrt(std::max(spread_[term + 1][term + 1], 0.0));
 }
 
 }  // namespace sfsm

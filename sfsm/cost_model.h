@@ -95,7 +95,7 @@ private:
     int states_;
     Vector state_{};                            // ln gain, then prices in units of scale_
     std::array<Vector, most_states> spread_{};  // their covariance
-    double log_scale_ = 0;                      // ln [ms] per unit of amount at price 1
+    double log_scale_ = 0, scale_ = 1;          // ln [ms] per unit of amount at price 1, and without the ln
     double noise_ = 0;                          // 1 sigma of the differences of neighbours / sqrt(2)
     double last_residual_ = 0;
     int strange_ = 0;    // times in a row that were absurdly off
