@@ -8,10 +8,12 @@
 namespace sfsm {
 
 // A level is 16 times that lie close together (a deviation of at most 1.5 %), late ones left out. It is a floor when
-// - its times don't follow the work that is predicted for them, which differs by more than they do. Or
+// - its times don't follow the work that is predicted for them, which differs by more than they do; unless it is below
+//   the target and they are not exactly equal: it does no harm there, and may be a step in cost. Or
 // - neighbouring times make up for each other, as times between stamps that jitter do. Or
 // - late times among the last 32 are whole multiples of it. Or
 // - four times in a row are whole multiples of the target, to six digits.
+// By the first two signs it is none while one of the last 32 times was below it.
 // It is none any more after two times below it. If times over it are multiples of a period, which is the floor or a
 // half, third or quarter of it, they are a display's; else they are what the work took, and after 64 of them in a row
 // the floor is forgotten. The wait before the next one is found doubles, from 32 times to 2,048.
