@@ -24,7 +24,7 @@ constexpr double pause = 8.5;        // [due] a longer time is no frame
 constexpr int long_ago = 1 << 20;    // [frames]
 
 // Of a display.
-constexpr double late_per_drift = 49;            // [drifts] that a late frame takes back: 2 % are late then
+constexpr double late_per_drift = 60;            // [drifts] that a late frame takes back: 1.6 % are late then
 constexpr double first_steps = 5, halving = 50;  // [slow drifts] after a climb; [frames] in which they halve
 constexpr double overshoot = 7;                  // [drifts] of a climb that its first late frame takes back
 constexpr int many_late = 3;                     // [frames] late in a row that are no chance: the load has risen

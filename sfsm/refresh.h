@@ -10,9 +10,9 @@ namespace sfsm {
 // Stands between times and a model.
 // - While no floor is known (floor.h), times are heard as they are. When one is found, the model forgets its prices.
 // - By a display the model is told its own prediction as long as that lies between the same two refreshes. Its gain is
-//   lowered while frames are in time, and raised by each late one, so that 2 % are late. After 80 frames in time it is
-//   lowered faster and faster, up to 1 % a frame. Three late frames in a row are a load that has risen.
-// - At a floor without a display, a time well above it is heard as it is. Near it the gain is moved so that 15 % of the
+//   lowered while frames are in time, and raised by each late one, so that 1.6 % are late. After 80 frames in time it
+//   is lowered faster and faster, up to 1 % a frame. Three late frames in a row are a load that has risen.
+// - At a floor without a display, a time well above it is heard as it is. Near it the gain is moved so that 10 % of the
 //   frames take longer than the floor.
 class Refresh {
 public:

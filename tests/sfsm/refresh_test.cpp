@@ -13,7 +13,7 @@ constexpr double target = 16;  // [ms], a refresh
 constexpr int convincing = 4;  // whole times in a row
 // Of ln gain, as refresh.cpp has it: a frame in time when the last late one is long ago and when it isn't.
 constexpr double fast = 1e-2, slow = 4e-5;
-constexpr double late_per_in_time = 49;  // 2 % are late where the two are in balance
+constexpr double late_per_in_time = 60;  // 1.6 % are late where the two are in balance
 constexpr double rounding = 1e-9;
 
 const Amounts work{{1, 1}, 2};
