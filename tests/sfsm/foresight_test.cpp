@@ -90,6 +90,17 @@ TEST_F(ForesightOf, FramesThatDisagreeIsNotBelieved) {
     EXPECT_LT(std::abs(error()), 0.02);
 }
 
+TEST_F(ForesightOf, OneWildFrameAfterAMildOneIsNotBelieved) {
+    for (int i = 0; i < 20; ++i) {
+        draw(std::log(1.1));
+        draw(std::log(1.24));
+    }
+    EXPECT_EQ(foresight_.factor(1), 1);
+    EXPECT_EQ(foresight_.factor(2), 1);
+    draw(std::log(1.24));
+    EXPECT_GT(foresight_.factor(2), 1) << "and two are";
+}
+
 TEST_F(ForesightOf, AllFramesIsEightfoldAtMost) {
     for (const double off : {3.0, -3.0}) {
         for (int i = 0; i < 500; ++i) draw(off);

@@ -239,7 +239,7 @@ TEST(PredictiveLaw, GivesDetailBackWhereItBuysNothing) {
     const Time cpu_bound = [](std::int64_t, const Decision&) { return 1.5 * target_ms; };
     const auto rows = run_knob(cpu_bound, 600, 2);
     EXPECT_GT(detail_of(rows.back().decision, test_range), 0.9);
-    EXPECT_LE(changes(rows, 300, rows.size()), 2) << "one retest, which changes nothing";
+    EXPECT_EQ(changes(rows, 300, rows.size()), 2) << "one retest, which changes nothing";
 }
 
 // Times in whole refreshes say nothing of the time to spare; detail is sought until a few frames are late.
