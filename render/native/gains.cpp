@@ -53,28 +53,27 @@ float between(float a, float b, float share) {
 
 }  // namespace
 
-void Gains::measure(const std::function<Trial(float, float, int)>& draw, float most_points) {
+void Gains::measure(const std::function<Trial(float, float, int)>& draw, float most_alike) {
     for (int size = 0; size < sizes; ++size) {
         const float cells = first_size * std::exp2(static_cast<float>(size));
         for (int density = 0; density < densities; ++density) {
-            const float points = first_density * std::exp2(static_cast<float>(density)) * cells;
-            if (density > 0 && points > most_points) {
+            const float alike = first_density * std::exp2(static_cast<float>(density)) * cells;
+            if (density > 0 && alike >= 2 * most_alike) {
                 gains_[size][density] = gains_[size][density - 1];  // nobody is drawn so
                 continue;
             }
             std::vector<Trial> all;
-            for (int trial = 0; trial < trials; ++trial)
-                all.push_back(draw(cells, std::clamp(points, 1.0f, most_points), trial));
+            for (int trial = 0; trial < trials; ++trial) all.push_back(draw(cells, std::min(alike, most_alike), trial));
             gains_[size][density] = solve(all);
         }
     }
     is_measured_ = true;
 }
 
-float Gains::at(float cells, float points) const {
+float Gains::at(float cells, float alike) const {
     if (!is_measured_) return 1.0f;
     const Between size = among_octaves(cells, first_size, sizes);
-    const Between density = among_octaves(points / cells, first_density, densities);
+    const Between density = among_octaves(alike / cells, first_density, densities);
     const auto along = [&](int row) {
         return between(gains_[row][density.below], gains_[row][density.below + 1], density.share);
     };

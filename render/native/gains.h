@@ -2,8 +2,8 @@
 //
 // Points add up to the silhouette's area, but a cell can't be covered more than once: where chance puts more than that
 // on one, some is lost. How much depends on how many cells a silhouette has (on few, all are at its edge and none is
-// full) and on how many points there are a cell (many lie more evenly). So it is measured, on the points themselves, by
-// drawing them as they will be drawn.
+// full) and on how many points there are a cell that show alike much (many lie more evenly; what shows little evens out
+// little). So it is measured, on the points themselves, by drawing them as they will be drawn.
 #pragma once
 
 #include <array>
@@ -20,17 +20,17 @@ public:
         std::vector<float> coverage;
         double silhouette = 0;
     };
-    // `draw`: of about that silhouette [cells] and that number of points, for trial 0, 1 ...: poses and directions are
-    // its own choice. Points come in [1, most_points].
-    void measure(const std::function<Trial(float cells, float points, int trial)>& draw, float most_points);
+    // `draw`: of about that silhouette [cells], by as many points as are as uneven as `alike` that show alike much, for
+    // trial 0, 1 ...: poses and directions are its own choice. `alike` comes in (0, most_alike].
+    void measure(const std::function<Trial(float cells, float alike, int trial)>& draw, float most_alike);
 
     // >= 1; 1 before it was measured.
-    float at(float cells, float points) const;
+    float at(float cells, float alike) const;
 
 private:
     static constexpr int sizes = 14, densities = 7;  // octaves from these on
     static constexpr float first_size = 0.25f;       // [cells]
-    static constexpr float first_density = 1.0f;     // points a cell, those that face away too
+    static constexpr float first_density = 0.25f;    // points a cell that show alike much
 
     std::array<std::array<float, densities>, sizes> gains_{};
     bool is_measured_ = false;

@@ -18,6 +18,10 @@ namespace render::native {
 namespace {
 
 constexpr float unit = 32767.0f;
+// Between directions that disagree it is unknown whether a point is hidden. If it isn't, it leaves a hole unless it
+// shows wholly; if it is, the cell is full anyway. Of surfaces with two sides half the points are hidden: those would
+// show.
+constexpr float shown_by_halves = 2.0f;
 // Normals are stored as 127 = 1 and read as 32512 = 1.
 constexpr float normal_unit = 32767.0f / 32512.0f;
 
@@ -165,22 +169,25 @@ void find_bounds(const Sight& sight, SplatPerson& out) {
 void weigh(const Sight& sight, const Gains& gains, SplatPerson& out) {
     const SplatModel& model = sight.model;
     const std::uint32_t pose = sight.person.pose;
-    float interpolated = 0, summed = 0;
+    float interpolated = 0, summed = 0, alike = 0;
+    const float visible_unit = out.two_sided ? unit - 4.0f : shown_by_halves * unit;
     for (int i = 0; i < 4; ++i) {
         const int node = sight.between.node[i];
         const float share = sight.between.share[i];
         const SplatModel::Look& look = model.look(pose, node);
         out.first_visible[i] = look.first_visible;
         out.visible[i] = model.visible(pose, node);
-        out.visible_share[i] = fixed(share, unit - 4.0f);  // rounded up, four still sum to at most one
+        out.visible_share[i] = fixed(share, visible_unit);  // rounded up, four still sum to at most one
         interpolated += share * look.silhouette;
         summed += share * look.summed;
+        alike += share * look.alike;
     }
     // Off the screen's middle a silhouette's image is larger, as it is cast aslant.
     const float cells_per_unit = sight.cells_per_metre * sight.person.instance.scale;
     const float cells = cells_per_unit * cells_per_unit * glm::length(sight.middle) / sight.depth;
     out.silhouette = cells * model.silhouette(pose, sight.between);
-    const float gain = gains.at(out.silhouette, sight.samples);
+    out.alike = alike * sight.samples;
+    const float gain = gains.at(out.silhouette, out.alike);
     out.total = out.count <= longest_summed_prefix ? gain * out.silhouette : 0.0f;
     const float covers = summed > 0.0f ? interpolated / summed : 1.0f;
     out.area_each = gain * covers * model.area() * cells / sight.samples;
@@ -264,14 +271,13 @@ void PointPeople::make_kind(std::uint32_t character) {
     kinds_[character] = std::make_unique<Kind>(figures_[character], daylight_);
     Gains gains;
     PatchRoom room;
-    gains.measure(
-        [&](float cells, float points, int trial) { return draw_alone(character, cells, points, trial, room); },
-        static_cast<float>(kinds_[character]->model.points()));
+    gains.measure([&](float cells, float alike, int trial) { return draw_alone(character, cells, alike, trial, room); },
+                  kinds_[character]->model.most_alike());
     kinds_[character]->gains = gains;
 }
 
 // In a pose, from a direction and with a fraction of a pixel that the trial's number chooses.
-Gains::Trial PointPeople::draw_alone(std::uint32_t character, float cells, float points, int trial,
+Gains::Trial PointPeople::draw_alone(std::uint32_t character, float cells, float alike, int trial,
                                      PatchRoom& room) const {
     const motion::PoseTable& poses = *figures_[character].poses;
     const auto chance = [&](float step) { return std::fmod(step * static_cast<float>(trial + 1), 1.0f); };
@@ -287,17 +293,22 @@ Gains::Trial PointPeople::draw_alone(std::uint32_t character, float cells, float
     Person person{};
     person.character = character;
     person.pose = static_cast<std::uint32_t>(chance(0.381966f) * static_cast<float>(poses.pose_count));
-    person.count = static_cast<std::uint32_t>(std::ceil(points));
-    person.last_share = points - static_cast<float>(person.count - 1);
+    person.count = static_cast<std::uint32_t>(figures_[character].poses->point_count);
+    person.last_share = 1.0f;
     person.instance.scale = 1.0f;
     person.instance.turn.sin_yaw = fixed(std::sin(yaw));
     person.instance.turn.cos_yaw = fixed(std::cos(yaw));
     View view = make_view(camera, side, side);
     person.instance.position = view.relative(glm::vec3(0.0f));
-    // A first look tells how large the silhouette is; the field of view follows.
+    // A first look tells how large the silhouette is and how many points show alike; the field of view and their number
+    // follow.
     SplatPerson drawn;
     ready(view, person, 1.0f, drawn);
     camera.fov_y = 2.0 * std::atan(view.tan_half_y * std::sqrt(drawn.silhouette / cells));
+    const float all = static_cast<float>(person.count);
+    const float points = drawn.alike > 0.0f ? std::clamp(all * alike / drawn.alike, 1.0f, all) : all;
+    person.count = static_cast<std::uint32_t>(std::ceil(points));
+    person.last_share = points - static_cast<float>(person.count - 1);
     view = make_view(camera, side, side);
     // Another place within the pixel.
     const float pixel = 2.0f * view.tan_half_y * drawn.depth / side;

@@ -42,7 +42,7 @@ private:
     };
 
     void make_kind(std::uint32_t character);
-    Gains::Trial draw_alone(std::uint32_t character, float cells, float points, int trial, PatchRoom& room) const;
+    Gains::Trial draw_alone(std::uint32_t character, float cells, float alike, int trial, PatchRoom& room) const;
     void ready(const View& view, const Person& person, float cell, SplatPerson& out) const;
 
     std::vector<figures::Figure> figures_;

@@ -22,10 +22,11 @@ namespace render::native {
 namespace {
 
 constexpr int most_lanes = 16;
-constexpr int run = 8;         // [cells] of a row that are drawn at a time
-constexpr int side = 128;      // [cells] of the square that a body is looked at in
-constexpr int margin = 2;      // [cells] around it
-constexpr float slack = 2.0f;  // [cells] A point so far behind the surface in front of it lies on that surface.
+constexpr int run = 8;             // [cells] of a row that are drawn at a time
+constexpr int side = 128;          // [cells] of the square that a body is looked at in
+constexpr int margin = 2;          // [cells] around it
+constexpr float slack = 2.0f;      // [cells] A point so far behind the surface in front of it lies on that surface.
+constexpr float thinnest = 0.25f;  // [cells] The same, if that surface shows its other side.
 constexpr float nothing = -std::numeric_limits<float>::infinity();
 
 int filled_up(int count) {
@@ -48,10 +49,11 @@ struct Points {
 
 // What one of the eyes sees.
 struct Picture {
-    float* heights;
+    std::array<float*, 2> heights;  // of surfaces that face it, and of others
     std::uint32_t* visible;
     float* shown;
-    std::array<float, most_lanes> facing{};  // what is shown, added up in this order whatever the length of vectors
+    // What is shown, and its squares, added up in this order whatever the length of vectors.
+    std::array<float, most_lanes> facing{}, squares{};
 };
 
 // Triangles that are ready to be drawn, structure of arrays. `u` and `v` rise along two of the edges' normals, from 0
@@ -221,26 +223,33 @@ void Draw(const SelfOcclusion::Axes& seen, const std::array<Array<std::int32_t>,
             ready.any |= some.any;
             ready.away |= some.away;
         }
-        const std::uint32_t near = double_sided ? ready.any : ready.any & ~ready.away;
-        const std::uint32_t far = double_sided ? ready.any : ready.any & ready.away;
-        for (std::uint32_t left = near; left != 0; left &= left - 1)
-            draw(batch, std::countr_zero(left), stride, 1.0f, pictures[0].heights);
-        for (std::uint32_t left = far; left != 0; left &= left - 1)
-            draw(batch, std::countr_zero(left), stride, -1.0f, pictures[1].heights);
+        for (std::uint32_t left = ready.any; left != 0; left &= left - 1) {
+            const int i = std::countr_zero(left);
+            const int away = static_cast<int>(ready.away >> i & 1);
+            if (double_sided || !away) draw(batch, i, stride, 1.0f, pictures[0].heights[away]);
+            if (double_sided || away) draw(batch, i, stride, -1.0f, pictures[1].heights[1 - away]);
+        }
     }
 }
 
-// How many cells aren't empty. Then each becomes the farthest of four: itself, and those right, above and both.
-int CountAndWiden(float* heights, int stride, int rows) {
+// How many cells aren't empty.
+int Count(const Picture& picture, bool double_sided, int cells) {
     std::size_t count = 0;
+    for (int i = 0; i < cells; i += static_cast<int>(hn::Lanes(lanes))) {
+        Vector nearest = hn::Load(lanes, picture.heights[0] + i);
+        if (double_sided) nearest = hn::Max(nearest, hn::Load(lanes, picture.heights[1] + i));
+        count += hn::CountTrue(lanes, hn::Gt(nearest, hn::Set(lanes, nothing)));
+    }
+    return static_cast<int>(count);
+}
+
+// Each cell becomes the farthest of four: itself, and those right, above and both.
+void Widen(float* heights, int stride, int rows) {
     for (int i = 0; i < stride * (rows - 1); i += static_cast<int>(hn::Lanes(lanes))) {
-        const Vector own = hn::Load(lanes, heights + i);
-        count += hn::CountTrue(lanes, hn::Gt(own, hn::Set(lanes, nothing)));
-        const Vector below = hn::Min(own, hn::LoadU(lanes, heights + i + 1));
+        const Vector below = hn::Min(hn::Load(lanes, heights + i), hn::LoadU(lanes, heights + i + 1));
         const Vector above = hn::Min(hn::Load(lanes, heights + i + stride), hn::LoadU(lanes, heights + i + stride + 1));
         hn::Store(hn::Min(below, above), lanes, heights + i);
     }
-    return static_cast<int>(count);
 }
 
 void Empty(float* heights, std::size_t cells) {
@@ -265,17 +274,31 @@ void Test(const Points& points, const Screen& screen, std::array<Picture, 2>& pi
         const auto at = hn::Add(hn::Mul(y, hn::Set(whole, screen.stride)), x);
         Vector height = seen(screen.towards, screen.low.z);
         Vector facing = dot(facet, screen.towards);
-        if (points.double_sided) facing = hn::Abs(facing);
         for (Picture& picture : pictures) {
-            const Vector in_front = hn::GatherIndex(lanes, picture.heights, at);
-            const auto hidden = hn::And(hn::Gt(facing, zero), hn::Lt(hn::Add(height, hn::Set(lanes, slack)), in_front));
+            const Vector facing_it = hn::GatherIndex(lanes, picture.heights[0], at);
+            const Vector beyond = hn::Add(height, hn::Set(lanes, slack));
+            auto hidden = hn::And(hn::Gt(facing, zero), hn::Lt(beyond, facing_it));
+            Vector shown = hn::Max(facing, zero);
+            if (points.double_sided) {
+                const Vector others = hn::GatherIndex(lanes, picture.heights[1], at);
+                const auto away = hn::Lt(facing, zero);
+                const Vector own_side = hn::IfThenElse(away, others, facing_it);
+                const Vector other_side = hn::IfThenElse(away, facing_it, others);
+                hidden =
+                    hn::Or(hn::Lt(beyond, own_side), hn::Lt(hn::Add(height, hn::Set(lanes, thinnest)), other_side));
+                shown = hn::Abs(facing);
+            }
             picture.visible[i / 32] |= bits_of(hn::Not(hidden)) << i % 32;
-            const Vector shown = hn::IfThenZeroElse(hidden, hn::Max(facing, zero));
+            shown = hn::IfThenZeroElse(hidden, shown);
             hn::Store(shown, lanes, picture.shown + i);
-            float* sums = &picture.facing[i % most_lanes];
-            hn::StoreU(hn::Add(hn::LoadU(lanes, sums), shown), lanes, sums);
+            const auto add = [&](Vector value, std::array<float, most_lanes>& to) HWY_ATTR {
+                float* sums = &to[i % most_lanes];
+                hn::StoreU(hn::Add(hn::LoadU(lanes, sums), value), lanes, sums);
+            };
+            add(shown, picture.facing);
+            add(hn::Mul(shown, shown), picture.squares);
             height = hn::Neg(height);
-            if (!points.double_sided) facing = hn::Neg(facing);
+            facing = hn::Neg(facing);
         }
     }
 }
@@ -290,7 +313,8 @@ namespace render::native {
 HWY_EXPORT(Turn);
 HWY_EXPORT(ToCells);
 HWY_EXPORT(Draw);
-HWY_EXPORT(CountAndWiden);
+HWY_EXPORT(Count);
+HWY_EXPORT(Widen);
 HWY_EXPORT(Empty);
 HWY_EXPORT(Test);
 
@@ -399,25 +423,34 @@ std::array<SelfOcclusion::Seen, 2> SelfOcclusion::look_both_ways(glm::vec3 direc
     HWY_DYNAMIC_DISPATCH(Turn)(vertices_, screen, on_screen_, low, high);
     fit(screen, low, high);
     HWY_DYNAMIC_DISPATCH(ToCells)(screen, on_screen_);
-    std::array<Picture, 2> pictures;
+    const int kinds = double_sided_ ? 2 : 1;
+    std::array<Picture, 2> pictures{};
     for (int i = 0; i < 2; ++i) {
         // Vectors begin at every cell.
         const std::size_t cells = static_cast<std::size_t>(screen.stride) * screen.rows + most_lanes;
-        if (heights_[i].size() < cells) heights_[i].resize(cells);
-        HWY_DYNAMIC_DISPATCH(Empty)(heights_[i].data(), cells);
+        for (int kind = 0; kind < kinds; ++kind) {
+            Array<float>& heights = heights_[i][kind];
+            if (heights.size() < cells) heights.resize(cells);
+            HWY_DYNAMIC_DISPATCH(Empty)(heights.data(), cells);
+            pictures[i].heights[kind] = heights.data();
+        }
         std::ranges::fill(visible_[i], 0u);
-        pictures[i] = {heights_[i].data(), visible_[i].data(), shown_[i].data()};
+        pictures[i].visible = visible_[i].data();
+        pictures[i].shown = shown_[i].data();
     }
     HWY_DYNAMIC_DISPATCH(Draw)(on_screen_, corners_, double_sided_, screen.stride, pictures);
     std::array<Seen, 2> seen;
     for (int i = 0; i < 2; ++i) {
-        const int cells = HWY_DYNAMIC_DISPATCH(CountAndWiden)(pictures[i].heights, screen.stride, screen.rows);
+        const int cells = HWY_DYNAMIC_DISPATCH(Count)(pictures[i], double_sided_, screen.stride * (screen.rows - 1));
         seen[i].silhouette = static_cast<float>(cells) / (screen.cells_per_unit * screen.cells_per_unit);
+        for (int kind = 0; kind < kinds; ++kind)
+            HWY_DYNAMIC_DISPATCH(Widen)(pictures[i].heights[kind], screen.stride, screen.rows);
     }
     HWY_DYNAMIC_DISPATCH(Test)({positions_, facets_, double_sided_}, screen, pictures);
     for (int i = 0; i < 2; ++i) {
         if (points_ % 32 != 0) visible_[i][points_ / 32] &= (1u << (points_ % 32)) - 1;
         seen[i].facing = std::accumulate(pictures[i].facing.begin(), pictures[i].facing.end(), 0.0f);
+        seen[i].squares = std::accumulate(pictures[i].squares.begin(), pictures[i].squares.end(), 0.0f);
         seen[i].visible = {visible_[i].data(), static_cast<std::size_t>((points_ + 31) / 32)};
         seen[i].shown = {shown_[i].data(), static_cast<std::size_t>(points_)};
     }

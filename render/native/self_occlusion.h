@@ -23,6 +23,7 @@ public:
     struct Seen {
         float silhouette = 0;  // [model units^2] area
         float facing = 0;      // sum over the visible points of their facets as they are seen, times their shares
+        float squares = 0;     // sum of the squares of the same
         // A bit for each point that nothing is in front of, 32 a word; also for those that face away: seen from a
         // little to the side they may not. And what a point adds to `facing`. Until the next look.
         std::span<const std::uint32_t> visible;
@@ -45,8 +46,9 @@ private:
     Axes vertices_;                               // [model units]
     Axes positions_, facets_;                     // of the points; facets times shares
     Axes on_screen_;                              // vertices [cells], and height towards the first eye
-    // For each eye, of each cell, the height of what is nearest to it.
-    std::array<Array<float>, 2> heights_;
+    // For each eye, of each cell, the height of what is nearest to it: of surfaces that face it, and of others, where
+    // these show.
+    std::array<std::array<Array<float>, 2>, 2> heights_;
     std::array<Array<std::uint32_t>, 2> visible_;
     std::array<Array<float>, 2> shown_;
 };

@@ -49,7 +49,7 @@ HWY_INLINE Vector seen(const SplatPerson& person, int chunk, int lane) {
         const auto* bits = reinterpret_cast<const std::uint8_t*>(person.visible_of(chunk, i)) + lane / 8;
         return hn::IfThenElseZero(hn::LoadMaskBits(lanes, bits), all(person.visible_share[i]));
     };
-    return hn::Add(hn::Add(from(0), from(1)), hn::Add(from(2), from(3)));
+    return hn::SaturatedAdd(hn::SaturatedAdd(from(0), from(1)), hn::SaturatedAdd(from(2), from(3)));
 }
 
 // What each point shows of its area; a quarter of it, as facets and shares go up to 2.

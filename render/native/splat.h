@@ -39,8 +39,9 @@ struct SplatPerson : InDepth {
     const PosedChunk *first_chunk, *other_chunks;
     std::array<std::uint32_t, 4> first_visible;   // of the first chunk
     std::array<const std::uint32_t*, 4> visible;  // of all
-    std::array<std::int16_t, 4> visible_share;
-    std::array<const std::int16_t*, 2> shares;  // the near ones and the far ones
+    std::array<std::int16_t, 4> visible_share;    // sums above 1 are 1
+    float alike;                                  // of the points drawn, how many as uneven ones would show alike much
+    std::array<const std::int16_t*, 2> shares;    // the near ones and the far ones
     std::int16_t to_far;
     const std::int16_t* colors;
     const std::int16_t* own_lights;   // null: nothing has any

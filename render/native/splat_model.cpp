@@ -77,6 +77,12 @@ int seen_of_pole(int node) {
     return node < above ? opposite_of(above) : above;
 }
 
+// So many points that showed alike much would be as uneven: those that are seen edge-on show little and even out
+// little.
+float share_alike(const SelfOcclusion::Seen& seen) {
+    return seen.squares > 0.0f ? seen.facing * seen.facing / seen.squares : 0.0f;
+}
+
 // So many triangles and points are looked at, over all directions and key poses.
 constexpr double look_budget = 1.5e8;
 
@@ -239,6 +245,7 @@ void SplatModel::look_around(const figures::Figure& figure) {
                 Look& look = looks_[std::size_t{key} * direction_nodes + from];
                 look.silhouette = seen[way].silhouette;
                 look.summed = area_each * seen[way].facing;
+                look.alike = share_alike(seen[way]) / static_cast<float>(points_);
                 look.first_visible = seen[way].visible[0];
                 find_lights(key, from, way == 0 ? direction : -direction, lit, seen[way].shown);
             }
@@ -352,6 +359,12 @@ void SplatModel::find_bends() {
             looks[node].bend_up = 0.5f * (below - 2.0f * s(node) + above);
         }
     }
+}
+
+float SplatModel::most_alike() const {
+    float most = 0;
+    for (const Look& look : looks_) most = std::max(most, look.alike);
+    return most * static_cast<float>(points_);
 }
 
 // Between two nodes a silhouette bulges out: a straight line would be up to 5 % short of it.

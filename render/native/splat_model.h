@@ -74,6 +74,7 @@ public:
         float silhouette;             // [model units^2]
         float summed;                 // the same as the visible points' sum says it, if together they were of area()
         float bend_around, bend_up;   // of silhouettes: half the second difference around, and from ring to ring
+        float alike;                  // [0, 1] as unevenly as this share of all points lie, did they show alike much
         std::uint32_t first_visible;  // which points of the first chunk nothing of the body hides, a bit each
     };
     // In the key pose next to this one.
@@ -82,6 +83,7 @@ public:
         return &visible_[visible_of(key_of_[pose], node)];
     }
     float silhouette(std::uint32_t pose, const Between& between) const;
+    float most_alike() const;  // points, from wherever most of them are
     // What is seen from there of somebody on whom the sun shines along `to_sun`, in the model's axes: the mean linear
     // light of each channel that surfaces of a slot send, where the slot's own colour is white. Summed over slots,
     // times their colours, it is the mean light of the silhouette.
