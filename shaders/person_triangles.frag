@@ -1,5 +1,8 @@
 in vec3 albedo;
 in vec3 light;
+#ifdef TWO_SIDED
+in vec3 light_behind;
+#endif
 #ifdef TEXTURED
 in vec2 texture_uv;
 flat in int texture_layer;
@@ -14,6 +17,9 @@ out vec4 color;
 
 void main() {
     vec3 surface = albedo, seen_by = light, emitted = vec3(0.0);
+#ifdef TWO_SIDED
+    if (!gl_FrontFacing) seen_by = light_behind;
+#endif
 #ifdef MATERIALS
     vec4 texturing = texturings[2 * texture_layer], emission = texturings[2 * texture_layer + 1];
     vec4 texel = texel_of(layers, texturing, texture_uv);

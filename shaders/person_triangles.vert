@@ -11,6 +11,9 @@ out float surface_alpha;
 #endif
 out vec3 albedo;
 out vec3 light;
+#ifdef TWO_SIDED
+out vec3 light_behind;
+#endif
 
 // What the person's own palette makes of the vertex' colour.
 vec3 tint() {
@@ -21,10 +24,12 @@ vec3 tint() {
 void main() {
     vec3 position = placed_position();
     vec3 normal = placed_normal();
-    bool away = dot(normal, position) > 0.0;
     gl_Position = Frame.clip_from_camera_relative * vec4(position, 1.0);
     albedo = linear(vertex_color) * tint();
-    light = lit(away && is_double_sided() ? -normal : normal);
+    light = lit(normal);
+#ifdef TWO_SIDED
+    light_behind = lit(-normal);
+#endif
 #ifdef TEXTURED
     texture_uv = uv;
     texture_layer = int(look >> look_slot_bits);

@@ -57,7 +57,7 @@ void attach_stage(GLuint program, GLenum stage, std::string_view name, const std
 }  // namespace
 
 Program build_program(std::string_view vertex, std::string_view fragment,
-                      std::initializer_list<std::string_view> defines) {
+                      const std::vector<std::string_view>& defines) {
     std::string preamble = "#version 450 core\n";
     for (std::string_view define : defines) preamble += "#define " + std::string(define) + "\n";
     preamble += shader_source("layout.h");

@@ -1,8 +1,8 @@
 // Shader programs from the sources embedded at build time.
 #pragma once
 
-#include <initializer_list>
 #include <string_view>
+#include <vector>
 
 #include "render/gl/objects.h"
 
@@ -15,6 +15,6 @@ std::string_view shader_source(std::string_view name);
 // shaders/layout.h. A line #include "NAME" stands for shaders/NAME. Throws std::runtime_error with the stage's name and
 // the driver's first message.
 Program build_program(std::string_view vertex, std::string_view fragment,
-                      std::initializer_list<std::string_view> defines = {});
+                      const std::vector<std::string_view>& defines = {});
 
 }  // namespace render::gl

@@ -1,8 +1,12 @@
 // figures/triangles.h by indexed triangles.
 #include <algorithm>
+#include <array>
 #include <glm/gtc/packing.hpp>
 #include <iterator>
+#include <optional>
 #include <span>
+#include <string_view>
+#include <vector>
 
 #include "model/own_light.h"
 #include "render/gl/baked_vertex.h"
@@ -102,12 +106,6 @@ Buffer upload_alphas(const model::Mesh& mesh, std::size_t poses) {
 
 class TriangleDrawer final : public FigureDrawer {
 public:
-    TriangleDrawer()
-        : program_(build_program("person_triangles.vert", "person_triangles.frag")),
-          textured_program_(build_program("person_triangles.vert", "person_triangles.frag", {"TEXTURED"})),
-          texturing_program_(
-              build_program("person_triangles.vert", "person_triangles.frag", {"TEXTURED", "MATERIALS"})) {}
-
     void add(const figures::Figure& figure, const Buffer& instances) override {
         const model::Mesh& mesh = *figure.mesh;
         Objects& objects = objects_.emplace_back();
@@ -132,6 +130,7 @@ public:
             add_alphas(objects.array, objects.alphas);
         }
         glVertexArrayElementBuffer(objects.array.name(), objects.indices.name());
+        build(objects);
     }
 
     void append_command(const Batch& batch, std::vector<std::uint32_t>& words) const override {
@@ -145,7 +144,7 @@ public:
         const Objects& objects = objects_[character];
         if (objects.double_sided) glDisable(GL_CULL_FACE);
         if (objects.textured) glBindTextureUnit(texture_unit_layers, objects.layers.name());
-        glUseProgram(program_of(objects).name());
+        glUseProgram(programs_[program_number(objects)]->name());
         if (!objects.texturings.empty())
             glUniform4fv(uniform_texturings, 2 * static_cast<GLsizei>(objects.texturings.size()),
                          &objects.texturings.front().base.x);
@@ -155,12 +154,22 @@ public:
     }
 
 private:
-    const Program& program_of(const Objects& objects) const {
-        if (!objects.texturings.empty()) return texturing_program_;
-        return objects.textured ? textured_program_ : program_;
+    // By textured, with texturings, double-sided.
+    static std::size_t program_number(const Objects& objects) {
+        return (objects.textured ? 1 : 0) + (objects.texturings.empty() ? 0 : 1) + (objects.double_sided ? 3 : 0);
     }
 
-    Program program_, textured_program_, texturing_program_;
+    void build(const Objects& objects) {
+        std::optional<Program>& program = programs_[program_number(objects)];
+        if (program) return;
+        std::vector<std::string_view> defines;
+        if (objects.textured) defines.emplace_back("TEXTURED");
+        if (!objects.texturings.empty()) defines.emplace_back("MATERIALS");
+        if (objects.double_sided) defines.emplace_back("TWO_SIDED");
+        program = build_program("person_triangles.vert", "person_triangles.frag", defines);
+    }
+
+    std::array<std::optional<Program>, 6> programs_;  // null: nobody is drawn by it
     std::vector<Objects> objects_;
 };
 

@@ -483,6 +483,7 @@ static_assert(sample_block_side - 1 == 3);
 // The corners of a triangle on the screen.
 struct FacingCorners {
     std::uint32_t numbers[3], paints[3];
+    std::uint32_t lit_at;  // so much farther on are the lit vertices of the side that is seen
     const Face* face;
 };
 
@@ -491,6 +492,7 @@ FacingCorners corners_of(const PersonMesh& mesh, std::uint32_t number) {
     const std::uint32_t turned = number / from_behind, second = 1 + turned, third = 2 - turned;
     return {{face.corners[0], face.corners[second], face.corners[third]},
             {face.paints[0], face.paints[second], face.paints[third]},
+            turned * mesh.behind(),
             &face};
 }
 
@@ -565,7 +567,7 @@ void find_flat_shading(const Dress& dress, const FacingCorners& corners, const E
     const Four f;
     static_assert(sizeof(Tint) == sizeof(LitVertex));
     const auto albedo = [&](int k) { return hn::Load(f, &dress.tints[corners.paints[k]].red); };
-    const auto light = [&](int k) { return hn::Load(f, dress.vertices[corners.numbers[k]].light); };
+    const auto light = [&](int k) { return hn::Load(f, dress.vertices[corners.lit_at + corners.numbers[k]].light); };
     if (!corners.face->plain) {
         const auto most = [&](auto of) { return hn::Max(of(0), hn::Max(of(1), of(2))); };
         const auto least = [&](auto of) { return hn::Min(of(0), hn::Min(of(1), of(2))); };
@@ -591,7 +593,7 @@ void find_flat_shading(const Dress& dress, const FacingCorners& corners, const E
 RichShading rich_shading(const Dress& dress, const FacingCorners& corners, const Slopes& slopes) {
     Corner all[3];
     for (int k = 0; k < 3; ++k) {
-        const LitVertex& vertex = dress.vertices[corners.numbers[k]];
+        const LitVertex& vertex = dress.vertices[corners.lit_at + corners.numbers[k]];
         const Tint& tint = dress.tints[corners.paints[k]];
         const glm::vec2 uv = dress.mesh.uvs.empty() ? glm::vec2(0) : dress.mesh.uvs[corners.numbers[k]];
         all[k] = {{vertex.light[0], vertex.light[1], vertex.light[2]},

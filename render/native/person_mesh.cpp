@@ -90,6 +90,10 @@ TextureLayers::TextureLayers(std::span<const model::Texture> textures) {
     }
 }
 
+std::uint32_t PersonMesh::behind() const {
+    return double_sided ? (vertex_count + group - 1) / group * group : 0;
+}
+
 PersonMesh::PersonMesh(const figures::Figure& figure)
     : poses(figure.poses),
       vertex_count(static_cast<std::uint32_t>(figure.mesh->vertex_count())),

@@ -69,6 +69,10 @@ struct PersonMesh {
     TextureLayers textures;
 
     explicit PersonMesh(const figures::Figure& figure);  // refers to the figure's poses
+
+    // Lit vertices are followed by the same ones seen from behind; a vertex is so much farther on there. 0: there are
+    // none.
+    std::uint32_t behind() const;
 };
 
 }  // namespace render::native

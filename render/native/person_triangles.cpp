@@ -68,11 +68,6 @@ std::optional<Placement> placement_of(const View& view, const glm::vec3& to_sun,
     p.across = form_of(place, view.right, half_width / view.tan_half_x);
     p.down = form_of(place, view.up, -half_height / view.tan_half_y);
     p.depth = form_of(place, view.forward, 1);
-    for (int axis = 0; axis < 3; ++axis) {
-        glm::dvec3 unit(0);
-        unit[axis] = 1;
-        p.away[axis] = form_of(place, turn(unit), 1);
-    }
     p.center_x = static_cast<float>(half_width);
     p.center_y = static_cast<float>(half_height);
     const glm::vec3 sun(turn.transposed(to_sun));
@@ -117,12 +112,22 @@ std::size_t in_groups(std::size_t count) {
     return (count + group - 1) / group * group;
 }
 
+// With those seen from behind.
+std::size_t lit_vertices(const PersonMesh& mesh) {
+    return (mesh.double_sided ? 2 : 1) * in_groups(mesh.vertex_count);
+}
+
 // As motion::unpack_position and the placement have it, in the place of a vertex.
 glm::dvec3 applied(const Placement& placement, const motion::PosedVertex& v) {
     const auto apply = [&](const Form& form) {
         return double{form.x} * v.x + double{form.y} * v.y + double{form.z} * v.z + double{form.one};
     };
     return {apply(placement.across), apply(placement.down), apply(placement.depth)};
+}
+
+// Clockwise on the screen is from before, wherever the corners are.
+bool is_from_behind(const std::array<PlacedCorner, 3>& triangle) {
+    return glm::dot(triangle[0].position, glm::cross(triangle[1].position, triangle[2].position)) < 0;
 }
 
 }  // namespace
@@ -139,12 +144,12 @@ Daylight daylight_of(const scene::Light& light) {
 }
 
 std::size_t PersonTriangles::size_of(const PersonMesh& mesh) {
-    return in_groups(mesh.vertex_count) * sizeof(LitVertex) + mesh.paints.size() * sizeof(Tint) +
+    return lit_vertices(mesh) * sizeof(LitVertex) + mesh.paints.size() * sizeof(Tint) +
            (in_groups(mesh.faces.size()) + group) * sizeof(FacingTriangle);
 }
 
 void PersonTriangles::reserve(const PersonMesh& mesh) {
-    const std::size_t vertices = in_groups(mesh.vertex_count), faces = in_groups(mesh.faces.size()) + group;
+    const std::size_t vertices = lit_vertices(mesh), faces = in_groups(mesh.faces.size()) + group;
     if (vertices > vertex_room_) lit_ = hwy::AllocateAligned<LitVertex>(vertex_room_ = vertices);
     if (mesh.paints.size() > paint_room_) tints_ = hwy::AllocateAligned<Tint>(paint_room_ = mesh.paints.size());
     if (faces > face_room_) facing_ = hwy::AllocateAligned<FacingTriangle>(face_room_ = faces);
@@ -175,7 +180,8 @@ Rect PersonTriangles::place(const View& view, const Daylight& daylight, const Pe
                           mesh.vertex_count);
     const Extent extent = place_vertices(*placement, daylight, posed, mesh.double_sided, lit_.get(),
                                          places.across.data(), places.down.data());
-    for (const std::uint32_t v : mesh.unlit) std::fill_n(lit_[v].light, 3, 1.0f);
+    for (const std::uint32_t v : mesh.unlit)
+        for (LitVertex* side : {&lit_[v], &lit_[mesh.behind() + v]}) std::fill_n(side->light, 3, 1.0f);
     const bool in_front = nearest >= near_plane;
     if (in_front && pixels_of(view, extent).empty()) return {};
     paint(mesh, person.instance.palette);
@@ -207,14 +213,16 @@ Rect PersonTriangles::place_anywhere(const View& view, const PersonMesh& mesh, c
                                      std::span<const motion::PosedVertex> posed) {
     for (const Face& face : mesh.faces) {
         std::array<PlacedCorner, 3> triangle;
+        for (int k = 0; k < 3; ++k) triangle[k].position = applied(placement, posed[face.corners[k]]);
+        const LitVertex* lit = lit_.get() + (is_from_behind(triangle) ? mesh.behind() : 0);
         for (int k = 0; k < 3; ++k) {
             const std::uint32_t v = face.corners[k];
             const Tint& tint = tints_[face.paints[k]];
             const glm::vec2 uv = mesh.uvs.empty() ? glm::vec2(0) : mesh.uvs[v];
             const float alpha = mesh.alphas.empty() ? 1.0f : mesh.alphas[v];
-            const float* light = lit_[v].light;
-            triangle[k] = {applied(placement, posed[v]),
-                           {{light[0], light[1], light[2]}, 0, {tint.red, tint.green, tint.blue}, uv.x, uv.y, alpha}};
+            const float* light = lit[v].light;
+            triangle[k].look = {
+                {light[0], light[1], light[2]}, 0, {tint.red, tint.green, tint.blue}, uv.x, uv.y, alpha};
         }
         append_clipped(triangle, placement.center_x, placement.center_y, mesh.double_sided,
                        mesh.texturings[face.texturing], wide_);

@@ -64,8 +64,17 @@ struct Bounds {
 };
 
 // One group, a vector at a time.
-void place_group(const Placement& placement, const Daylight& daylight, const std::uint32_t* posed, bool double_sided,
-                 LitVertex* lit, std::int32_t* across, std::int32_t* down, Bounds& bounds) {
+// Linear.
+hn::Vec<Floats> light_on(const Vector3& normal, const Vector3& to_sun, const Daylight& daylight, int c) {
+    const Floats f;
+    const auto facing_sun = hn::Max(dot(normal, to_sun), hn::Zero(f));
+    const auto around = hn::Add(hn::Set(f, daylight.level[c]), hn::Mul(normal.y, hn::Set(f, daylight.slope[c])));
+    return hn::Add(around, hn::Mul(facing_sun, hn::Set(f, daylight.sun[c])));
+}
+
+// `behind`: the same from behind; null: not wanted.
+void place_group(const Placement& placement, const Daylight& daylight, const std::uint32_t* posed, LitVertex* lit,
+                 LitVertex* behind, std::int32_t* across, std::int32_t* down, Bounds& bounds) {
     const Floats f;
     const Ints i;
     const Words w;
@@ -89,23 +98,15 @@ void place_group(const Placement& placement, const Daylight& daylight, const std
                   hn::Max(bounds.max_y, y), hn::Max(bounds.nearest, near)};
 
         const auto signed_normal = hn::BitCast(i, z_normal);
-        Vector3 normal = unfold(hn::ShiftRight<24>(hn::ShiftLeft<8>(signed_normal)), hn::ShiftRight<24>(signed_normal));
-        if (double_sided) {
-            const Vector3 away{apply(placement.away[0], packed), apply(placement.away[1], packed),
-                               apply(placement.away[2], packed)};
-            const auto behind = hn::Gt(dot(normal, away), hn::Zero(f));
-            normal = {hn::IfThenElse(behind, hn::Neg(normal.x), normal.x),
-                      hn::IfThenElse(behind, hn::Neg(normal.y), normal.y),
-                      hn::IfThenElse(behind, hn::Neg(normal.z), normal.z)};
-        }
+        const Vector3 normal =
+            unfold(hn::ShiftRight<24>(hn::ShiftLeft<8>(signed_normal)), hn::ShiftRight<24>(signed_normal));
         const Vector3 to_sun{hn::Set(f, placement.sun[0]), hn::Set(f, placement.sun[1]), hn::Set(f, placement.sun[2])};
-        const auto facing_sun = hn::Max(dot(normal, to_sun), hn::Zero(f));
-        const auto light = [&](int c) {
-            const auto around =
-                hn::Add(hn::Set(f, daylight.level[c]), hn::Mul(normal.y, hn::Set(f, daylight.slope[c])));
-            return hn::Add(around, hn::Mul(facing_sun, hn::Set(f, daylight.sun[c])));
+        const auto light_up = [&](const Vector3& side, LitVertex* to) {
+            hn::StoreInterleaved4(light_on(side, to_sun, daylight, 0), light_on(side, to_sun, daylight, 1),
+                                  light_on(side, to_sun, daylight, 2), near, f, to[lane].light);
         };
-        hn::StoreInterleaved4(light(0), light(1), light(2), near, f, lit[lane].light);
+        light_up(normal, lit);
+        if (behind) light_up({hn::Neg(normal.x), hn::Neg(normal.y), hn::Neg(normal.z)}, behind);
     }
 }
 
@@ -113,6 +114,7 @@ Extent place_all(const Placement& placement, const Daylight& daylight, std::span
                  bool double_sided, LitVertex* lit, std::int32_t* across, std::int32_t* down) {
     const Ints i;
     const auto most = hn::Set(i, INT32_MAX), least = hn::Set(i, INT32_MIN);
+    LitVertex* behind = lit + (posed.size() + group - 1) / group * group;
     Bounds bounds{most, most, least, least, hn::Zero(Floats())};
     for (std::size_t first = 0; first < posed.size(); first += group) {
         // The last group is filled up with its last vertex.
@@ -122,8 +124,8 @@ Extent place_all(const Placement& placement, const Daylight& daylight, std::span
             std::fill(std::copy(posed.begin() + first, posed.end(), rest), rest + group, posed.back());
             from = rest;
         }
-        place_group(placement, daylight, reinterpret_cast<const std::uint32_t*>(from), double_sided, lit + first,
-                    across + first, down + first, bounds);
+        place_group(placement, daylight, reinterpret_cast<const std::uint32_t*>(from), lit + first,
+                    double_sided ? behind + first : nullptr, across + first, down + first, bounds);
     }
     return {hn::GetLane(hn::MinOfLanes(i, bounds.min_x)), hn::GetLane(hn::MinOfLanes(i, bounds.min_y)),
             hn::GetLane(hn::MaxOfLanes(i, bounds.max_x)), hn::GetLane(hn::MaxOfLanes(i, bounds.max_y)),

@@ -22,7 +22,6 @@ struct Form {
 struct Placement {
     Form across, down;         // times depth: [grid steps m] from the picture's corner
     Form depth;                // [m] along the view
-    Form away[3];              // from the camera to the vertex, turned into the model's axes [m]
     float center_x, center_y;  // [grid steps]
     float sun[3];              // towards the sun, turned into the model's axes
 };
@@ -45,8 +44,8 @@ struct Extent {
     float nearest = 0;  // the largest depth of a LitVertex
 };
 
-// Lights the vertices, and places them where `across` and `down` say. All three outputs have room for whole groups.
-// `double_sided`: normals that face away are flipped.
+// Lights the vertices, and places them where `across` and `down` say. All three outputs have room for whole groups, and
+// `lit` for as many more if `double_sided`: the same vertices seen from behind, mesh.behind() farther on.
 Extent place_vertices(const Placement& placement, const Daylight& daylight, std::span<const motion::PosedVertex> posed,
                       bool double_sided, LitVertex* lit, std::int32_t* across, std::int32_t* down);
 

@@ -317,7 +317,7 @@ TEST(PeoplesRasteriser, OnTheGridShowsWhatEverySampleSees) {
         const tests::Field field = scene.field(reach_on_grid / 2, origin);
         std::vector<ExactTriangle> triangles;
         std::vector<std::uint32_t> packed((3 * count + group - 1) / group * group);
-        const auto lit = hwy::AllocateAligned<LitVertex>(packed.size());
+        const auto lit = hwy::AllocateAligned<LitVertex>(2 * packed.size());
         float nearest = 0;
         for (std::size_t i = 0; i < count; ++i) {
             triangles.push_back({tests::hostile_corners(field, chance), hostile_depths(chance)});
@@ -326,6 +326,7 @@ TEST(PeoplesRasteriser, OnTheGridShowsWhatEverySampleSees) {
                 const GridPoint& at = triangles[i].corners[k];
                 packed[vertex] = (static_cast<std::uint32_t>(at.x) & 0xffffu) | static_cast<std::uint32_t>(at.y) << 16;
                 lit[vertex] = {{light_of(i + 1), 0, 0}, static_cast<float>(triangles[i].depth[k])};
+                lit[mesh.behind() + vertex] = lit[vertex];
                 nearest = std::max(nearest, lit[vertex].depth);
             }
             if (double_sided && triangles[i].area() < 0) triangles[i].turn_around();

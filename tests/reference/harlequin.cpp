@@ -195,4 +195,11 @@ model::Character make_masked_harlequin() {
     return harlequin;
 }
 
+model::Character make_leaning_harlequin() {
+    model::Character character = make_harlequin(true);
+    for (model::Material& material : character.mesh.materials) material.double_sided = true;
+    for (glm::vec3& normal : character.mesh.normals) normal = glm::normalize(normal + glm::vec3(1.2f, 0, 0));
+    return character;
+}
+
 }  // namespace reference

@@ -13,4 +13,7 @@ model::Character make_harlequin(bool open);
 // The open one with holes in what is textured, one of whose textures is mirrored and clamped, the other not blended.
 model::Character make_masked_harlequin();
 
+// All seen from both sides, with normals that lean so far to +x that many face away where their triangles don't.
+model::Character make_leaning_harlequin();
+
 }  // namespace reference

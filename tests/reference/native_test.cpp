@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "tests/reference/harlequin.h"
 #include "tests/reference/stadium.h"
@@ -106,10 +107,10 @@ TEST_P(NativePortrait, IsTheReferencesOnAverageByPoints) {
     }
 }
 
-TEST(NativeHarlequin, WithCutoutsAndSamplersIsTheReferences) {
+void expect_harlequin_alike(model::Character harlequin) {
     constexpr int width = 200, height = 160;  // [px]
     constexpr Exceptions exceptions{0, 1.0 / 2000};
-    const reference::Model model(reference::make_masked_harlequin(), {0, 1}, 400);
+    const reference::Model model(std::move(harlequin), {0, 1}, 400);
     const auto renderer = reference::make_renderer(way, nothing, {}, std::vector{model.product()}, width, height);
     const reference::Model* const models[] = {&model};
     for (const reference::Sitting& one : reference::all_around(model, {0.35, 1.2, 3.0, 12.0, 90.0})) {
@@ -120,6 +121,15 @@ TEST(NativeHarlequin, WithCutoutsAndSamplersIsTheReferences) {
             {{one.pose, width, height}, {one.person}, nullptr, {}, 0, 0, reference::samples_of(way, 0)});
         expect_alike(renderer->read_image(), expected, exceptions, one.what);
     }
+}
+
+TEST(NativeHarlequin, WithCutoutsAndSamplersIsTheReferences) {
+    expect_harlequin_alike(reference::make_masked_harlequin());
+}
+
+// Which side is seen the triangle says, not the normals.
+TEST(NativeHarlequin, OfLeaningNormalsIsTheReferences) {
+    expect_harlequin_alike(reference::make_leaning_harlequin());
 }
 
 // Black, a little larger than all of it, and facing inward.

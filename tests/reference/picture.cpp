@@ -69,6 +69,7 @@ private:
     struct Spot {
         glm::dvec3 share, right, below;
         bool centre;  // of a pixel
+        bool behind;  // seen from behind
     };
 
     enum class Existence { certain, uncertain, none };
@@ -119,7 +120,8 @@ private:
                         const glm::dvec3 there = at(sx, sy);
                         return there / (there.x + there.y + there.z);
                     };
-                    return Spot{share_at(px, py), share_at(px + 1, py), share_at(px, py + 1), place == 0};
+                    return Spot{share_at(px, py), share_at(px + 1, py), share_at(px, py + 1), place == 0,
+                                determinant > 0};
                 };
                 const Existence existence = exists(spot);
                 if (existence == Existence::none) continue;
@@ -189,7 +191,7 @@ private:
         return slot == 0 ? glm::dvec3(1) : linear(person.palette.colors[slot - 1]);
     }
 
-    // Light on a vertex or point; of a surface that is seen from both sides, on the side that is seen.
+    // Light on a point; of a surface that is seen from both sides, on the side that is seen.
     static Shade light_seen(const glm::dvec3& normal, const glm::dvec3& at, bool both_sides) {
         const double facing = -glm::dot(normal, glm::normalize(at));
         const glm::dvec3 front = light_on(normal), back = light_on(-normal);
@@ -219,13 +221,14 @@ private:
         const glm::dmat3 axes = axes_of(person);
         const glm::dvec3 origin = person.origin - camera_.position;
         std::vector<glm::dvec3> at, albedo;
-        std::vector<Shade> light;
+        std::array<std::vector<Shade>, 2> light;  // seen from before and from behind
         for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
             at.push_back(origin + person.scale * (axes * surface.positions[v]));
             albedo.push_back(linear(mesh.colors[v]) * tint_of(person, mesh.slots[v]));
             const model::Material& material = mesh.materials[mesh.material_ids[v]];
-            light.push_back(
-                partly(material.unlit, light_seen(axes * surface.normals[v], at[v], material.double_sided)));
+            const glm::dvec3 normal = axes * surface.normals[v];
+            for (const bool behind : {false, true})
+                light[behind].push_back(partly(material.unlit, Shade::exactly(light_on(behind ? -normal : normal))));
         }
         for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
             const std::uint32_t a = mesh.indices[i], b = mesh.indices[i + 1], c = mesh.indices[i + 2];
@@ -259,11 +262,10 @@ private:
                 const Texel shown = emission == glm::dvec3(0) ? Texel{} : texel_at(spot, material.emissive_texture);
                 const glm::dvec3 least = emission * glm::dvec3(shown.low), most = emission * glm::dvec3(shown.high);
                 const glm::dvec3 own = blend(albedo[a], albedo[b], albedo[c], spot.share);
+                const std::vector<Shade>& by = light[spot.behind];
                 return Shade::between(
-                    stored(own * low * low * blend(light[a].low, light[b].low, light[c].low, spot.share) +
-                           least * least),
-                    stored(own * high * high * blend(light[a].high, light[b].high, light[c].high, spot.share) +
-                           most * most));
+                    stored(own * low * low * blend(by[a].low, by[b].low, by[c].low, spot.share) + least * least),
+                    stored(own * high * high * blend(by[a].high, by[b].high, by[c].high, spot.share) + most * most));
             });
         }
     }

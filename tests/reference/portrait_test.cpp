@@ -129,6 +129,11 @@ TEST_F(Portrait, OfWhoShinesIsTheReferences) {
     }
 }
 
+// Which side is seen the triangle says, not the normals.
+TEST_F(Portrait, OfLeaningNormalsIsTheReferences) {
+    expect_alike_all_around(Model(reference::make_leaning_harlequin(), {0, 1}, 400));
+}
+
 // Neighbours in front of and behind one another, some as triangles, some as points, whose batches follow one another in
 // every way there is.
 TEST_F(Portrait, OfAGroupIsTheReferences) {
