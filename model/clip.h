@@ -21,7 +21,7 @@ struct Channel {
 };
 
 struct Clip {
-    std::string name;
+    std::string name;     // of its character's no two are alike, and none is empty
     double duration = 0;  // [s] the last key of any channel
     std::vector<Channel> channels;
 };

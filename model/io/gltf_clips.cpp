@@ -1,5 +1,9 @@
 #include <algorithm>
 #include <stdexcept>
+#include <string>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
 
 #include "model/io/gltf_file.h"
 
@@ -62,13 +66,31 @@ Channel read_channel(GltfFile& file, const tinygltf::AnimationSampler& sampler, 
     return channel;
 }
 
-Clip read_clip(GltfFile& file, const tinygltf::Animation& animation, const NodeOrder& nodes, Warnings& warnings) {
+// Names that tell clips apart: those without one are told by their place in the file, from 0 on; of several of one name
+// the others are numbered.
+class ClipNames {
+public:
+    std::string operator()(const std::string& own, std::size_t place) {
+        const std::string base = own.empty() ? "clip " + std::to_string(place) : own;
+        std::string name = base;
+        for (int& count = given_[base]; !taken_.insert(name).second; name = base + " (" + std::to_string(count) + ")")
+            count = std::max(count + 1, 2);
+        return name;
+    }
+
+private:
+    std::unordered_map<std::string, int> given_;  // how far the others of a name are numbered
+    std::unordered_set<std::string> taken_;
+};
+
+Clip read_clip(GltfFile& file, const tinygltf::Animation& animation, const NodeOrder& nodes, std::string name,
+               Warnings& warnings) {
     Clip clip;
-    clip.name = animation.name;
+    clip.name = std::move(name);
     for (const tinygltf::AnimationChannel& channel : animation.channels) {
         Path path;
         if (!path_of(channel.target_path, path)) {
-            warnings.add(moves_nothing, animation.name);
+            warnings.add(moves_nothing, clip.name);
             continue;
         }
         if (channel.target_node < 0) continue;
@@ -88,13 +110,16 @@ Clip read_clip(GltfFile& file, const tinygltf::Animation& animation, const NodeO
 }  // namespace
 
 void build_clips(GltfFile& file, const NodeOrder& nodes, Character& character) {
-    for (const tinygltf::Animation& animation : file.model.animations) {
+    ClipNames names;
+    for (std::size_t i = 0; i < file.model.animations.size(); ++i) {
+        const tinygltf::Animation& animation = file.model.animations[i];
+        const std::string name = names(animation.name, i);
         try {
-            character.clips.push_back(read_clip(file, animation, nodes, character.warnings));
+            character.clips.push_back(read_clip(file, animation, nodes, name, character.warnings));
         } catch (const BudgetError&) {
             throw;
         } catch (const std::runtime_error&) {
-            character.warnings.add("clip with keys that can't be played, left out", animation.name);
+            character.warnings.add("clip with keys that can't be played, left out", name);
         }
     }
 }

@@ -395,6 +395,20 @@ TEST(GltfClips, PathsAndInterpolationsAreWhatTheyAreCalled) {
     EXPECT_EQ(clip.channels[3].values.size(), 18u);
 }
 
+TEST(GltfClips, HaveNamesThatTellThemApart) {
+    GltfBuilder builder = tests::make_square();
+    const int times = builder.scalars({0, 1}), places = builder.vec3({1, 2, 3, 4, 5, 6});
+    const json channels = json::array({to_node(0, "translation")});
+    const json samplers = json::array({{{"input", times}, {"output", places}}});
+    builder = with_clips({6, {channels, samplers}}, builder);
+    const std::vector<std::string> names{"", "Walk", "Walk (2)", "Walk", "Walk", ""};
+    for (std::size_t i = 0; i < names.size(); ++i)
+        if (!names[i].empty()) builder.document["animations"][i]["name"] = names[i];
+    std::vector<std::string> found;
+    for (const model::Clip& clip : load(builder).clips) found.push_back(clip.name);
+    EXPECT_EQ(found, (std::vector<std::string>{"clip 0", "Walk", "Walk (2)", "Walk (3)", "Walk (4)", "clip 5"}));
+}
+
 TEST(GltfClips, LastAsLongAsTheirLongestChannel) {
     GltfBuilder builder = tests::make_square();
     const int early = builder.scalars({0, 0.5f}), late = builder.scalars({1, 3}),
