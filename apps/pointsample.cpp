@@ -21,6 +21,8 @@
 #include "apps/program.h"
 #include "apps/progress.h"
 #include "apps/warnings.h"
+#include "model/clip_list.h"
+#include "model/input_file.h"
 #include "model/io/mesh_file.h"
 #include "motion/pose.h"
 #include "pointsample/model_key.h"
@@ -123,12 +125,10 @@ const model::Clip& find_clip(const model::Character& character, const std::strin
     const bool digits = !wanted.empty() && wanted.find_first_not_of("0123456789") == std::string::npos;
     if (digits && wanted.size() < 9 && std::stoul(wanted) < character.clips.size())
         return character.clips[std::stoul(wanted)];
-    std::string names;
-    for (const model::Clip& clip : character.clips) names += (names.empty() ? "" : ", ") + clip.name;
-    throw std::runtime_error(
-        "--pose: found no clip '" + wanted + "', expected " +
-        (character.clips.empty() ? "none, as the file has no clips"
-                                 : "an index below " + std::to_string(character.clips.size()) + " or one of " + names));
+    throw std::runtime_error("--pose: found no clip " + model::in_quotes(wanted) + ", expected " +
+                             (character.clips.empty() ? "none, as the file has no clips"
+                                                      : "an index below " + std::to_string(character.clips.size()) +
+                                                            " or one of " + model::list_of(character.clips)));
 }
 
 // The first is the pose that the points are given in.

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "model/clip_list.h"
 #include "model/input_file.h"
 #include "motion/pose.h"
 #include "scene/body_motion.h"
@@ -143,18 +144,6 @@ std::optional<Take> to_go(Repertoire& clips, std::initializer_list<Deed> deeds) 
     return std::nullopt;
 }
 
-// "T-Pose, Idle, Run", cut where it is long.
-std::string list_of(const model::Character& character) {
-    constexpr std::size_t longest = 90;
-    std::string list;
-    for (const model::Clip& clip : character.clips) {
-        const std::string name = model::in_quotes(clip.name);
-        if (list.size() + name.size() > longest) return list + ", ...";
-        list += (list.empty() ? "" : ", ") + name;
-    }
-    return list;
-}
-
 // What users want, by deed.
 std::map<Deed, Take> takes_of(std::span<const ActWish> wishes, const model::Character& character) {
     std::map<Deed, Take> takes;
@@ -164,7 +153,7 @@ std::map<Deed, Take> takes_of(std::span<const ActWish> wishes, const model::Char
             throw std::runtime_error(
                 "found no clip " + model::in_quotes(wish.clip) + " to " + std::string(name_of(wish.deed)) +
                 " by; expected " +
-                (character.clips.empty() ? "none, as it has no clips" : "one of " + list_of(character)));
+                (character.clips.empty() ? "none, as it has no clips" : "one of " + model::list_of(character.clips)));
         takes[wish.deed] = {static_cast<int>(found - character.clips.begin()), std::nullopt};
     }
     return takes;

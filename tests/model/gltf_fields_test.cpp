@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "model/clip_list.h"
 #include "model/io/gltf.h"
 #include "motion/pose.h"
 #include "tests/model/gltf_builder.h"
@@ -407,6 +408,13 @@ TEST(GltfClips, HaveNamesThatTellThemApart) {
     std::vector<std::string> found;
     for (const model::Clip& clip : load(builder).clips) found.push_back(clip.name);
     EXPECT_EQ(found, (std::vector<std::string>{"clip 0", "Walk", "Walk (2)", "Walk (3)", "Walk (4)", "clip 5"}));
+}
+
+TEST(GltfClips, AreListedInAShortLine) {
+    const std::vector<model::Clip> clips(1000, {"a clip with a name as long as exporters make them", 0, {}});
+    EXPECT_LT(model::list_of(clips).size(), 100u);
+    EXPECT_EQ(model::list_of(std::span(clips).first(0)), "");
+    EXPECT_EQ(model::list_of(std::vector<model::Clip>{{"Walk", 0, {}}, {"Run", 0, {}}}), "'Walk', 'Run'");
 }
 
 TEST(GltfClips, LastAsLongAsTheirLongestChannel) {
