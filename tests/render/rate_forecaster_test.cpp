@@ -74,7 +74,8 @@ void expect_same_counts(const sfsm::Work& foreseen, const Frame& frame, const te
                         const std::string& where) {
     constexpr double share = 0.03, few = 24, blocks = 4;
     const double block = static_cast<double>(scene.crowd.size()) / static_cast<double>(scene.crowd.blocks.size());
-    const double people = frame.far_blocks.empty() ? few : blocks * block;
+    const bool has_blocks = !frame.far_blocks.empty() || foreseen[WorkKind::single] < frame.work[WorkKind::person];
+    const double people = has_blocks ? blocks * block : few;
     const double singles = std::max(count(frame.work, WorkKind::single), 1.0);
     const auto near = [&](WorkKind kind, double of_a_person) {
         const double expected = count(frame.work, kind);
@@ -115,6 +116,27 @@ TEST(RateForecast, CountsWhatSelectionDraws) {
                 << sfsm::entry_of(kind).name << ' ' << sfsm::name_of(way->drawing);
         }
     }
+}
+
+// A person isn't drawn by a part of a point.
+TEST(RateForecast, CountsTheLastPointOfEverybody) {
+    constexpr double fewest = figures::fewest_points + 1, few = 40;  // points a person, beside which one is much
+    const figures::Way way = tests::without_blocks(figures::natively());
+    const tests::SmallScene& scene = scene_of(way);
+    Selector selector(scene.crowd, scene.cast, scene.figures(), {.way = &way});
+    double people = 0, too_many = 0;
+    for (const Seen& seen : views_of(scene)) {
+        const auto rates = selector.survey(seen.view, 100).forecast.rates;
+        for (const sfsm::RateStep& step : rates) {
+            const sfsm::Work& drawn = selector.select(at_rate(step.rate), 99).work;
+            const double points = count(drawn, WorkKind::point), singles = count(drawn, WorkKind::single);
+            if (count(drawn, WorkKind::triangle) > 0 || points > few * singles || points < fewest * singles) continue;
+            people += singles;
+            too_many += count(step.work, WorkKind::point) - points;
+        }
+    }
+    ASSERT_GT(people, 1000);
+    EXPECT_NEAR(too_many / people, 0, 0.2);
 }
 
 TEST(RateForecast, LosesWhatTheFrameIsExpectedTo) {
@@ -183,6 +205,22 @@ TEST(RateForecast, ForeseesBothSidesOfAChangeOfCells) {
         }
     }
     EXPECT_GT(changes, 1);
+}
+
+TEST(RateForecast, CellsThatTakeMoreThanTheySaveStayAPixel) {
+    figures::Way way = figures::natively();
+    const tests::SmallScene& scene = scene_of(way);
+    const auto changes = [&](double resampling) {
+        way.effort.resampling = resampling;
+        Selector selector(scene.crowd, scene.cast, scene.figures(), {.way = &way});
+        std::size_t steps = 0;
+        for (const Seen& seen : views_of(scene))
+            steps += selector.survey(seen.view, 100).forecast.rates.size() - Exchange::steps;
+        return steps;
+    };
+    constexpr double triangles_a_cell = 1000;
+    EXPECT_GT(changes(0), 0u);
+    EXPECT_EQ(changes(triangles_a_cell), 0u);
 }
 
 TEST(RateForecast, LosesMoreAndCostsLessAlongTheRates) {
