@@ -150,7 +150,7 @@ std::vector<Step> steps_of(const Part& part) {
     if (!steps.empty()) return steps;
     throw std::runtime_error(std::string("found nothing that --people, --views and --only all ask for") +
                              (part.with_opengl ? "" : " and that needs no OpenGL driver") +
-                             ", expected a part of the comparison: laws are marked with 20000 or 1000000 people");
+                             ", expected a part of the comparison: laws are marked with 20000, 200000 or 1000000 people");
 }
 
 void measure_all(const Options& options) {

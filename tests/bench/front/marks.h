@@ -18,7 +18,7 @@ namespace bench::front {
 // [ms] In this order: a law goes from one to the next, and passes the dear frames that some laws begin with once.
 inline constexpr double mark_targets[] = {100, 33, 16.6, 8, 4};
 inline constexpr double path_targets[] = {33, 16.6};  // at moments of the roaming path
-inline constexpr std::int64_t marked_crowds[] = {20'000, 1'000'000};
+inline constexpr std::int64_t marked_crowds[] = {20'000, 200'000, 1'000'000};
 inline bool is_marked(std::int64_t people) {
     return std::ranges::find(marked_crowds, people) != std::end(marked_crowds);
 }
