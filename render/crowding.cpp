@@ -5,13 +5,14 @@
 namespace render {
 
 void Crowding::add(glm::vec3 middle, float height) {
-    // Blocks touch: what sticks out of one is before or behind its neighbours, and only a part of a body spreads it.
+    // Blocks touch: what sticks out of one is above or below its neighbours, and only a part of a body's height spreads
+    // it. Sideways nobody is in another's place.
     constexpr double part = 0.25, width = 0.3;  // of a body's height
     const glm::dvec3 at(middle);
     count_ += 1;
     sum_ += at;
     squares_ += glm::outerProduct(at, at);
-    const double tall = part * static_cast<double>(height), wide = width * tall;
+    const double tall = part * static_cast<double>(height), wide = width * static_cast<double>(height);
     squares_[0][0] += wide * wide / 12;  // of a side: its square / 12
     squares_[1][1] += tall * tall / 12;
     squares_[2][2] += wide * wide / 12;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace {
@@ -180,9 +181,68 @@ TEST(Crowding, FromNearbyAsMuchMoreShowsAsARasterSays) {
     }
 }
 
-// However thin the row, a body has a depth.
-TEST(Crowding, ARowShowsFromAbove) {
-    EXPECT_GT(share_of(stand(1, 20, 0.5f, 0), 1.3f, {0, -1, 0}), 0.05f);
+// Upright boxes as wide and as deep, seen from infinitely far away: whether one of them is on the line through a point.
+bool is_box_on(const glm::vec3& point, const glm::vec3& ahead, const std::vector<glm::vec3>& middles, float height) {
+    const glm::vec3 half = 0.5f * height * glm::vec3(breadth, 1, breadth);
+    return std::ranges::any_of(middles, [&](const glm::vec3& middle) {
+        float from = -std::numeric_limits<float>::infinity(), to = std::numeric_limits<float>::infinity();
+        for (int axis = 0; axis < 3; ++axis) {
+            const float a = (middle[axis] - half[axis] - point[axis]) / ahead[axis];
+            const float b = (middle[axis] + half[axis] - point[axis]) / ahead[axis];
+            from = std::max(from, std::min(a, b));
+            to = std::min(to, std::max(a, b));
+        }
+        return from <= to;
+    });
+}
+
+// All that shows of such boxes, over a quarter of all their surface.
+double box_share(const std::vector<glm::vec3>& middles, float height, glm::vec3 direction) {
+    constexpr float cell = 0.04f;  // [m]
+    const glm::vec3 ahead = glm::normalize(direction);
+    const glm::vec3 right = glm::normalize(glm::cross(ahead, glm::vec3(0, 1, 0))), up = glm::cross(right, ahead);
+    glm::vec2 low(std::numeric_limits<float>::max()), high(-low);
+    for (const glm::vec3& middle : middles) {
+        const glm::vec2 at(glm::dot(right, middle), glm::dot(up, middle));
+        low = glm::min(low, at - height);
+        high = glm::max(high, at + height);
+    }
+    int full = 0;
+    for (float y = low.y; y < high.y; y += cell)
+        for (float x = low.x; x < high.x; x += cell) full += is_box_on(x * right + y * up, ahead, middles, height);
+    const double surface = static_cast<double>((4 * breadth + 2 * breadth * breadth) * height * height);
+    return full * static_cast<double>(cell * cell) / (surface / 4 * static_cast<double>(middles.size()));
+}
+
+// What is said of such boxes, in blocks of so many people, against what shows of all of them.
+void expect_cover(const std::vector<glm::vec3>& middles, std::size_t people_a_block, glm::vec3 direction,
+                  double tolerance) {
+    constexpr float height = 1.3f, surface = (4 * breadth + 2 * breadth * breadth) * height * height, far = 1e6f;
+    double said = 0;
+    for (std::size_t first = 0; first < middles.size(); first += people_a_block) {
+        Crowding crowding;
+        for (std::size_t i = first; i < first + people_a_block; ++i) crowding.add(middles[i], height);
+        const double share = static_cast<double>(crowding.visible_share(far * direction, surface / 4));
+        said += share * static_cast<double>(people_a_block) / static_cast<double>(middles.size());
+    }
+    const double drawn = box_share(middles, height, direction);
+    EXPECT_NEAR(said, drawn, tolerance * drawn)
+        << "blocks of " << people_a_block << ", " << direction.x << ' ' << direction.y << ' ' << direction.z;
+}
+
+// However thin the row, a body has a depth, in which nobody else is.
+TEST(Crowding, OfARowAsMuchShowsFromAboveAsBodiesCover) {
+    constexpr double tolerance = 0.25;
+    for (const glm::vec3 direction : {glm::vec3(0.01f, -1, -0.01f), {1, -1, 0.01f}})
+        expect_cover(stand(1, 20, 0.5f, 0), 20, direction, tolerance);
+}
+
+// The next block hides as much as one's own rows do.
+TEST(Crowding, OfBlocksOfAStandAsMuchShowsAsOfAllOfIt) {
+    constexpr double tolerance = 0.1;
+    for (const std::size_t rows : {2, 4, 12})
+        for (const glm::vec3 direction : {glm::vec3(0.01f, -0.01f, -1), {0.01f, -0.3f, -1}, {0.01f, -1, -1}})
+            expect_cover(stand(12, 20, 0.5f, 0.4f), 20 * rows, direction, tolerance);
 }
 
 TEST(Crowding, ScaleAndOriginDontMatter) {

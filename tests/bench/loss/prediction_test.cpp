@@ -41,7 +41,7 @@ INSTANTIATE_TEST_SUITE_P(Views, Prediction, testing::Values("close", "roam-11s")
                          [](const auto& view) { return std::string(view.param).substr(0, 4); });
 
 TEST_P(Prediction, IsNearWhatIsMeasuredAtRates) {
-    constexpr double tolerance = 0.36;  // docs/measurements/loss.md: of these views it is among the farthest off
+    constexpr double tolerance = 0.37;  // docs/measurements/loss.md: of these views it is among the farthest off
     const bench::front::Sight sight(venue(), shot(), references_);
     const bench::FlipReference reference(sight.judge().reference().now);
     auto& shooter = venue().shooter(sfsm::Drawing::native);
