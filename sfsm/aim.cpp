@@ -15,6 +15,18 @@ constexpr double no_leap = 1.25;    // [times of the newest frame]
 
 }  // namespace
 
+void Aim::begin() {
+    static_cast<Beliefs&>(status) = {};
+    status.reason = kept_reason;
+    status.kept_for += 1;
+    status.is_probe = false;
+}
+
+void Aim::change(const char* reason) {
+    status.reason = kept_reason = reason;
+    status.kept_for = 0;
+}
+
 double Aim::wanted_ms(const CostModel& model) const {
     const double for_noise = 1 - std::min(options.headroom * model.noise(), options.most_headroom);
     const double for_tail = std::max(options.tail_limit * std::exp(-model.tail()), options.lowest_aim);
@@ -41,6 +53,13 @@ bool Aim::is_kept(const Prediction& prediction, double aim_ms) const {
 const char* Aim::reason_to_move(const Prediction& kept, double aim_ms, double least_ms) const {
     if (least_ms > target_ms) return "out of reach: as fast as detail makes it";
     return kept.log_ms > std::log(aim_ms) ? "would be slow: coarser" : "has time to spare: finer";
+}
+
+void Aim::believe_waiting(const Refresh& refresh) {
+    status.due_ms = target_ms;
+    if (!refresh.is_waiting()) return;
+    status.floor_ms = refresh.floor().ms();
+    if (!refresh.is_capped()) status.refresh_ms = refresh.floor().period_ms();
 }
 
 void Aim::believe(const Prediction& prediction, const CostModel& model) {

@@ -5,8 +5,11 @@
 #include "sfsm/controller.h"
 #include "sfsm/cost_model.h"
 #include "sfsm/predictive_options.h"
+#include "sfsm/refresh.h"
 
 namespace sfsm {
+
+inline constexpr const char* reason_to_guess = "no time is known yet: a guess";  // Status::reason
 
 struct Aim {
     PredictiveOptions options;
@@ -14,6 +17,13 @@ struct Aim {
     double target_ms = 0;  // what can be had for it: the next refresh that fits, or an outside cap that is slower
     double range = 0;      // L [m]; 0: none yet
     Status status;
+    const char* kept_reason = "start";  // Status::reason of what is kept between probes
+
+    // A new decision: until it's said otherwise, what is kept is kept for its reason, and nothing is believed.
+    void begin();
+
+    // Another decision is kept from now on.
+    void change(const char* reason);
 
     // Even the coarsest frame, `least_ms`, is slower than wanted.
     bool is_out_of_reach(const CostModel& model, double least_ms) const { return least_ms > wanted_ms(model); }
@@ -31,6 +41,9 @@ struct Aim {
 
     // Status::reason for leaving what is predicted so.
     const char* reason_to_move(const Prediction& kept, double aim_ms, double least_ms) const;
+
+    // Shows what frames are known to wait for, and what can be had then.
+    void believe_waiting(const Refresh& refresh);
 
     // Shows what is believed of the next frame.
     void believe(const Prediction& prediction, const CostModel& model);

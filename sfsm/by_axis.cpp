@@ -9,7 +9,6 @@ namespace sfsm {
 namespace {
 
 // Believed at first: time grows in even steps of detail, to 1 + 1 / 0.3 = 4.3 times that of the coarsest.
-constexpr int detail_steps = 8;
 constexpr double frame_amount = 0.3;
 constexpr PriceBelief belief{1 + detail_steps, {1, 1, 1, 1, 1, 1, 1, 1, 1}, 0.7, {}};
 
@@ -85,11 +84,30 @@ void AxisLaw::decide(std::int64_t frame) {
         is_following() ? follow(frame) : turn();
     } else if (costs_.samples() == 0) {
         detail_ = detail_of({State::points, aim_.range, first_splat}, aim_.range);
+        aim_.change(reason_to_guess);
     }
     Drawn drawn = next_drawn();
     drawn.decision = decision_at(drawn.detail, aim_.range);
     if (drawn_count_ == 0 || drawn.decision != aim_.status.decision) remember(drawn);
     aim_.status.decision = drawn.decision;
+    tell();
+}
+
+// What is believed, for whoever reads the status.
+void AxisLaw::tell() const {
+    Status& status = aim_.status;
+    aim_.believe_waiting(refresh_);
+    if (ceiling_.is_set()) status.ceiling = ceiling_.detail();
+    if (is_following()) status.drift = drift_.slope();
+    if (!costs_.is_ready()) return;
+    const double gain = costs_.gain();
+    const auto sigmas = costs_.cost_sigmas();
+    status.price_ms.frame = gain * costs_.price(0) * frame_amount;
+    status.price_sigma_ms.frame = sigmas[0] * frame_amount;
+    for (std::size_t i = 0; i < detail_steps; ++i) {
+        status.step_ms[i] = gain * costs_.price(static_cast<int>(i) + 1) / detail_steps;
+        status.step_sigma_ms[i] = sigmas[i + 1] / detail_steps;
+    }
 }
 
 // Where the target is out of reach, the detail that is kept is believed to cost little; under a cap, nothing.
@@ -99,8 +117,8 @@ AxisLaw::Drawn AxisLaw::next_drawn() {
     const bool is_given_up = !refresh_.is_waiting() && has_less && is_out_of_reach();
     const bool is_reach_tested = reach_retest_.step(is_given_up, costs_.shifts());
     const bool is_cap_tested = cap_retest_.step(has_less && is_capped, costs_.shifts());
-    aim_.status.reason = kept_reason_;
     if (!is_reach_tested && !is_cap_tested) return {{}, detail_, false};
+    aim_.status.is_probe = true;
     aim_.status.reason =
         is_cap_tested ? "frames wait: is less detail still in vain?" : "out of reach: is less detail still in vain?";
     return {{}, retested_share * detail_, true};
@@ -117,7 +135,9 @@ void AxisLaw::turn() {
     } else if (!aim_.is_kept(now, aim_ms)) {
         turn_to(sure_detail(detail_for(aim_ms), least_ms), std::exp(now.log_ms), aim_ms);
     }
-    if (detail_ != before) kept_reason_ = aim_.reason_to_move(now, aim_ms, least_ms);
+    aim_.status.least_ms = least_ms;
+    aim_.status.aim_ms = aim_ms;
+    if (detail_ != before) aim_.change(aim_.reason_to_move(now, aim_ms, least_ms));
     aim_.believe(costs_.predict(amounts_of(detail_)), costs_);
 }
 
@@ -135,7 +155,9 @@ void AxisLaw::follow(std::int64_t frame) {
     const double before = detail_;
     ceiling_.forget();
     detail_ = detail_for(aim_ms / std::exp(log_load));
-    if (detail_ != before) kept_reason_ = aim_.reason_to_move(predict(before), aim_ms, least_ms);
+    aim_.status.least_ms = least_ms;
+    aim_.status.aim_ms = aim_ms;
+    if (detail_ != before) aim_.change(aim_.reason_to_move(predict(before), aim_ms, least_ms));
     aim_.believe(predict(detail_), costs_);
 }
 

@@ -55,6 +55,7 @@ private:
     double detail_for(double ms) const;
     Drawn drawn_as(const Decision& decision) const;
     void remember(const Drawn& drawn);
+    void tell() const;
 
     Aim& aim_;
     CostModel costs_;  // term 0: what every frame has; then one a step of detail
@@ -64,8 +65,7 @@ private:
     Heard newest_;
     Retest reach_retest_{256}, cap_retest_{2048};
     double detail_ = 1;
-    const char* kept_reason_ = "start";  // Status::reason of what is kept between retests
-    std::array<Drawn, 16> drawn_{};      // the newest decisions; L may have moved since, so each with its detail
+    std::array<Drawn, 16> drawn_{};  // the newest decisions; L may have moved since, so each with its detail
     std::size_t drawn_count_ = 0;
 };
 

@@ -35,6 +35,18 @@ void ForecastLaw::decide(const Forecast& forecast, std::int64_t frame) {
     } else {
         decide_among(RatePlans(forecast, aim_.range), frame);
     }
+    tell();
+}
+
+// What is believed, for whoever reads the status.
+void ForecastLaw::tell() const {
+    aim_.believe_waiting(model_.refresh());
+    if (!model_.costs().is_ready()) return;
+    aim_.status.price_ms = model_.prices();
+    aim_.status.price_sigma_ms = model_.price_sigmas();
+    aim_.status.foreseen_bias = model_.foresight().bias();
+    for (std::size_t i = 0; i < work_kinds; ++i)
+        aim_.status.foreseen_factor[i] = model_.foresight().factor(static_cast<int>(i) + 1);
 }
 
 void ForecastLaw::decide_among(const Plans& plans, std::int64_t frame) {
@@ -44,6 +56,7 @@ void ForecastLaw::decide_among(const Plans& plans, std::int64_t frame) {
         decision = kept_;
     } else if (model_.costs().samples() == 0) {
         decision = kept_ = plans.decision_of(first_guess(plans));
+        aim_.change(reason_to_guess);
     }
     // L may have shrunk below what is kept.
     if (decision.state != State::original) decision.motion_distance = std::min(decision.motion_distance, aim_.range);
@@ -71,10 +84,11 @@ Plan ForecastLaw::best_plan(const Plans& plans, double least_ms, double budget_m
 
 void ForecastLaw::choose(const Plans& plans) {
     const CostModel& costs = model_.costs();
-    aim_.status.price_ms = model_.prices();
     const Prices prices = model_.foreseen_prices();
     const double least_ms = plan_ms(plans.cheapest(prices), prices);
     const double aim_ms = aim_.aim_ms(costs, least_ms, 0);
+    aim_.status.least_ms = least_ms;
+    aim_.status.aim_ms = aim_ms;
     wanted_.reset();
     kept_ = plans.renewed(kept_);
     const Plan now = plans.at(kept_);
@@ -99,7 +113,7 @@ void ForecastLaw::choose(const Plans& plans) {
     if (chosen == kept_) return;
     kept_ = chosen;
     since_choice_ = 0;
-    aim_.status.reason = aim_.reason_to_move(prediction, aim_ms, least_ms);
+    aim_.change(aim_.reason_to_move(prediction, aim_ms, least_ms));
     aim_.believe(model_.predict(plan), costs);
 }
 
@@ -137,6 +151,7 @@ void ForecastLaw::probe(const Plans& plans) {
     if (!plan) return;
     aim_.believe(model_.predict(*plan), model_.costs());
     aim_.status.decision = probe_.decision = plans.decision_of(*plan);
+    aim_.status.is_probe = true;
     probe_.age = 1;
 }
 

@@ -49,6 +49,7 @@ private:
     std::optional<Plan> finer_probe(const Plans& plans, const Plan& now, double least_ms);
     bool is_least_unknown(const Plan& cheapest);
     bool is_doubtful(const Plan& plan) const;
+    void tell() const;
 
     Aim& aim_;
     Drawing drawing_;

@@ -33,6 +33,9 @@ public:
 
     double floor() const { return floor_; }
 
+    bool is_set() const { return ceiling_ <= 1; }
+    double detail() const { return ceiling_; }  // means nothing before is_set()
+
     void forget();
 
 private:

@@ -2,7 +2,6 @@
 // the same calls give the same decisions to the bit.
 #pragma once
 
-#include <limits>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -10,25 +9,9 @@
 #include "sfsm/decision.h"
 #include "sfsm/drawing.h"
 #include "sfsm/forecast.h"
-#include "sfsm/prices.h"
+#include "sfsm/status.h"
 
 namespace sfsm {
-
-// All that a controller believes; read by the overlay, the trace, the report and the tests. NaN: not known, or not yet.
-struct Status {
-    Decision decision;
-    double target_ms = 0;
-    double last_ms = 0;            // the newest usable sample
-    std::int64_t bad_samples = 0;  // NaN, infinite, zero or negative times: counted and ignored
-    const char* reason = "start";  // why the decision is what it is: static string
-
-    static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-    double predicted_ms = unknown;            // of the next frame
-    double uncertainty = unknown;             // 1 sigma of that, relative, without the noise of a single frame
-    double noise = unknown;                   // 1 sigma of a single frame, relative
-    double gain = unknown;                    // what every price is multiplied by, now
-    Prices price_ms = equal_prices(unknown);  // gain included
-};
 
 // What is known of a frame before it is drawn.
 struct FrameRequest {

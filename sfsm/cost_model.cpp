@@ -266,6 +266,17 @@ double CostModel::price(int term) const {
     return scale_ * state_[term + 1];
 }
 
+std::array<double, most_terms> CostModel::cost_sigmas() const {
+    std::array<double, most_terms> sigmas{};
+    const double scale = std::exp(log_scale_ + state_[0]);
+    for (int i = 0; i < belief_.terms; ++i) {
+        const double price = state_[i + 1];
+        const double variance = price * price * spread_[0][0] + 2 * price * spread_[0][i + 1] + spread_[i + 1][i + 1];
+        sigmas[i] = scale * std::sqrt(std::max(variance, 0.0));
+    }
+    return sigmas;
+}
+
 double CostModel::price_uncertainty(int term) const {
     return scale_ * std::sqrt(std::max(spread_[term + 1][term + 1], 0.0));
 }

@@ -60,6 +60,7 @@ public:
     double gain() const;                                            // 1 at the start
     double price(int term) const;                                   // [ms] per unit of amount, gain left out
     double price_uncertainty(int term) const;                       // 1 sigma [ms]
+    std::array<double, most_terms> cost_sigmas() const;             // 1 sigma of gain() * price(term) [ms]
     double noise() const { return noise_ * memory_.of_a_frame(); }  // 1 sigma of a single frame, relative
     double tail() const { return tail_.excess(); }                  // Tail::percentile of ln(time / prediction)
     std::int64_t shifts() const { return shifts_; }                 // of level, that were found so far

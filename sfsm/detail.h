@@ -9,6 +9,9 @@ namespace sfsm {
 inline constexpr double detail_of_points = 2.0 / 3;  // the paper's boundary between states 1 and 2, as D / L
 inline constexpr double finest_splat = 0.5;          // [px] at that boundary
 
+// Where nothing but detail is known of frames, each of so many equal steps of it has a price.
+inline constexpr int detail_steps = 8;
+
 inline constexpr double first_splat = 4 * finest_splat;  // of frames whose time nobody knows yet
 
 // `detail` in [0, 1], range > 0 [m]:

@@ -19,6 +19,8 @@ public:
 
     bool is_on() const { return is_on_; }
 
+    double slope() const { return slope_; }  // [ln load per frame]
+
     // ln load so many frames after the newest that was observed.
     double ahead(double frames) const { return level_ + frames * slope_; }
 

@@ -256,6 +256,7 @@ Decision PaperLaw::decide(const FrameRequest& request) {
         memory_.fast_times = 0;
         has_new_target = true;
     }
+    status_.kept_for += 1;
     const bool is_ready = memory_.target_ms > 0 && memory_.range > 0;
     if (is_ready && (is_new_ || (is_answered_ && has_new_target))) step();
     drawn_.add(status_.decision = decision());
@@ -273,6 +274,7 @@ void PaperLaw::step() {
     row->act(memory_, constants_);
     memory_.state = row->to;
     status_.reason = row->reason;
+    status_.kept_for = 0;
     if (memory_.state == before.state && memory_.distance == before.distance && memory_.splat == before.splat) return;
     memory_.fast_times = 0;
     drawn_.clear();

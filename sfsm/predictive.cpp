@@ -28,6 +28,7 @@ Decision PredictiveLaw::decide(const FrameRequest& request) {
     if (is_usable(request.range)) aim_.range = request.range;
     has_forecast_ = request.forecast && !request.forecast->motion.empty() && !request.forecast->shapes.empty();
     if (aim_.asked_ms > 0 && aim_.range > 0) {
+        aim_.begin();
         if (has_forecast_) {
             by_forecast_.decide(*request.forecast, decisions_);
         } else {

@@ -36,6 +36,9 @@ public:
     // Frames are known to wait.
     bool is_waiting() const { return floor_.is_found(); }
 
+    // What they wait for. It means little before is_waiting().
+    const Floor& floor() const { return floor_; }
+
     // They do, and for no display.
     bool is_capped() const { return is_waiting() && floor_.period_ms() <= 0; }
 

@@ -433,6 +433,7 @@ double SafeguardedLaw::robust_noise() const {
 Decision SafeguardedLaw::decide(const FrameRequest& request) {
     if (is_usable(request.range)) range_ = request.range;
     if (is_usable(request.target_ms) && request.target_ms != status_.target_ms) retarget(request.target_ms);
+    status_.kept_for += 1;
     if (is_new_ && status_.target_ms > 0 && range_ > 0) step();
     is_new_ = false;
     if (range_ > 0) drawn_.add(status_.decision = decision_at(memory_.detail, range_));
@@ -459,6 +460,7 @@ void SafeguardedLaw::step() {
     row->act(memory_, constants_);
     memory_.state = row->to;
     status_.reason = row->reason;
+    status_.kept_for = 0;
     if (memory_.detail == detail) return;
     drawn_.clear();
     has_last_ = false;

@@ -74,6 +74,15 @@ Prices WorkModel::prices() const {
     return prices;
 }
 
+Prices WorkModel::price_sigmas() const {
+    const std::array<double, most_terms> sigmas = costs_.cost_sigmas();
+    Prices of_prices;
+    of_prices.frame = sigmas[0] * frame_amount_;
+    for (std::size_t i = 0; i < work_kinds; ++i)
+        of_prices.each[i] = sigmas[i + 1] * work_table[i].prior(drawing_).pieces;
+    return of_prices;
+}
+
 Prices WorkModel::foreseen_prices() const {
     Prices foreseen = std::exp(foresight_.bias()) * prices();
     for (std::size_t i = 0; i < work_kinds; ++i) foreseen.each[i] *= foresight_.factor(static_cast<int>(i) + 1);

@@ -26,12 +26,15 @@ public:
     // These mean nothing before costs().is_ready().
     Prediction predict(const Plan& plan) const;  // forecasts' error made good
     Prices prices() const;                       // gain included
+    Prices price_sigmas() const;                 // 1 sigma of each of them
     Prices foreseen_prices() const;              // of what a forecast says will be drawn: its error included
 
     // What can be had for a target [ms] (refresh.h).
     double due_ms(double target_ms) const { return refresh_.due_ms(target_ms); }
 
     const CostModel& costs() const { return costs_; }
+    const Foresight& foresight() const { return foresight_; }
+    const Refresh& refresh() const { return refresh_; }
 
 private:
     Amounts amounts_of(const Plan& plan) const;
