@@ -7,7 +7,10 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
+#include "apps/contestants.h"
+#include "apps/explain.h"
 #include "apps/output.h"
 #include "apps/program.h"
 #include "apps/progress.h"
@@ -51,6 +54,20 @@ void verify(const std::string& path) {
     }
     std::cout << path << ": all " << replayed.size() << " decisions of law " << trace.settings.at("law")
               << " reproduced to the bit\n";
+}
+
+void explain(const ReplayOptions& options) {
+    const sfsm::Trace trace = read_own_trace(options.trace);
+    if (options.laws.empty()) {
+        required(trace, options.trace, "law");
+        return write_explanation(std::cout, trace, *options.explained, law_of(trace, false));
+    }
+    std::string gap;
+    for (const sfsm::simulate::Contestant& law : chosen_laws("--law", options.laws)) {
+        if (needs_course(law)) continue;
+        std::cout << std::exchange(gap, "\n");
+        write_explanation(std::cout, trace, *options.explained, law);
+    }
 }
 
 void fit(const ReplayOptions& options) {
@@ -118,6 +135,7 @@ void replay(const ReplayOptions& options) {
 void run(const ReplayOptions& options) {
     if (!options.simulated.scenario.empty()) return simulate(options.simulated);
     if (options.verify) return verify(options.trace);
+    if (options.explained) return explain(options);
     if (options.fit) return fit(options);
     replay(options);
 }

@@ -17,6 +17,7 @@ const std::string examples = R"(Examples:
   replay out/stadium.csv --open-loop --csv decisions.csv --json -
   replay out/stadium.csv --fit                          what each kind of work cost
   replay out/stadium.csv --verify                       is every recorded decision reproduced to the bit?
+  replay out/stadium.csv --explain 120                  why frame 120 is drawn as it is, in words
 )" + std::string(simulate_examples) +
                              R"(
 
@@ -49,8 +50,13 @@ void add_replay_options(CLI::App& app, ReplayOptions& options) {
     auto* verify =
         app.add_flag("--verify", options.verify, "Only check that the trace's law reproduces the recorded decisions")
             ->excludes(law, target, delay, process, open, json, csv, report, svg, fit);
+    auto* explain =
+        app.add_option("--explain", options.explained,
+                       "Only say what was asked, believed and foreseen for this frame, and why the law decides so")
+            ->type_name("FRAME")
+            ->excludes(target, delay, process, open, json, csv, report, svg, fit, verify);
     add_simulate_options(app, options.simulated)
-        ->excludes(trace, law, target, delay, process, open, report, svg, fit, verify);
+        ->excludes(trace, law, target, delay, process, open, report, svg, fit, verify, explain);
 }
 
 void check(ReplayOptions& options) {
@@ -67,10 +73,11 @@ void check(ReplayOptions& options) {
     const std::vector<sfsm::simulate::Contestant> laws = chosen_laws("--law", options.laws);
     if (!options.csv.empty() && laws.size() != 1)
         throw wrong_argument("--csv", std::to_string(laws.size()) + " laws", "one law with it");
-    if (!options.open_loop || options.laws == "all") return;  // all that can
+    const bool is_open = options.open_loop || options.explained;
+    if (!is_open || options.laws == "all") return;  // all that can
     for (const sfsm::simulate::Contestant& law : laws) {
         if (needs_course(law))
-            throw wrong_argument("--law", law.name, "a law that decides without knowing costs, in an open loop");
+            throw wrong_argument("--law", law.name, "a law that decides without knowing costs, over recorded times");
     }
 }
 

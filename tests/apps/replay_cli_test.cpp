@@ -8,6 +8,8 @@
 #include <sstream>
 
 #include "sfsm/controller.h"
+#include "sfsm/replay.h"
+#include "sfsm/status_text.h"
 #include "sfsm/trace.h"
 #include "tests/command.h"
 #include "tests/sfsm/rate_scene.h"
@@ -64,8 +66,8 @@ protected:
 TEST_F(ReplayProgram, HelpAndVersionSucceed) {
     const Outcome help = replay("--help"), version = replay("--version");
     EXPECT_EQ(help.code, 0);
-    for (const char* word : {"--verify", "--fit", "--open-loop", "--delay", "--process", "--target-ms", "--csv",
-                             "--json", "--report", "--svg", "--law", "Examples:"}) {
+    for (const char* word : {"--verify", "--explain FRAME", "--fit", "--open-loop", "--delay", "--process",
+                             "--target-ms", "--csv", "--json", "--report", "--svg", "--law", "Examples:"}) {
         EXPECT_NE(help.out.find(word), std::string::npos) << word;
     }
     EXPECT_EQ(version.code, 0);
@@ -88,6 +90,12 @@ TEST_F(ReplayProgram, UsageErrorsAreOneLineAndCode2) {
         {trace + " --csv x.csv --law paper,predictive", "one law"},
         {trace + " --open-loop --law oracle", "oracle"},
         {trace + " --verify --target-ms 5", "--verify"},
+        {trace + " --explain x", "--explain"},
+        {trace + " --explain 1.5", "--explain"},
+        {trace + " --explain 3 --verify", "--explain"},
+        {trace + " --explain 3 --delay 1", "--explain"},
+        {trace + " --explain 3 --law oracle", "oracle"},
+        {"--explain 3", "found no TRACE"},
         {trace + " --fit --law paper", "--fit"},
         {trace + " --json " + trace, "--json"},
         {trace + " another.csv", "another.csv"},
@@ -120,6 +128,9 @@ TEST_F(ReplayProgram, BadFilesAreOneLineAndCode1) {
         {capture() + " --process nobody.exe", "game.exe"},
         {capture() + " --verify", "expected a trace of ours"},
         {capture() + " --fit", "expected a trace of ours"},
+        {capture() + " --explain 3", "expected a trace of ours"},
+        {trace + " --explain 600", "t.csv: found no frame 600, expected one from 0 to 599"},
+        {trace + " --explain -1", "t.csv: found no frame -1, expected one from 0 to 599"},
         {trace + " --csv " + in_folder("no/such/folder.csv"), "cannot write"},
         {trace + " --csv " + folder, "found a directory, expected a file"},
         {trace + " --report /dev/full", "cannot write /dev/full: No space left"},
@@ -212,6 +223,64 @@ TEST_F(ReplayProgram, WillNotVerifyWhatWasForcedOrNotSaid) {
         EXPECT_EQ(outcome.code, 1) << key;
         EXPECT_NE(outcome.err.find("found no setting '" + std::string(key) + "'"), std::string::npos) << outcome.err;
     }
+}
+
+// The numbers of a frame to explain are those that a program of one's own would see at it.
+TEST_F(ReplayProgram, ExplainsWhatTheLawBelievedAndWhyItDecidedSo) {
+    const sfsm::Trace trace = recorded();
+    const std::string saved = save(trace);
+    const std::span<const sfsm::TraceRow> rows(trace.rows);
+    const int delay = sfsm::trace_delay(trace);
+    for (const std::size_t frame : {0, 1, 5, 599}) {
+        const Outcome outcome = replay(saved + " --explain " + std::to_string(frame));
+        ASSERT_EQ(outcome.code, 0) << outcome.err;
+        const auto controller = sfsm::make_controller("predictive");
+        sfsm::replay(*controller, rows.first(frame + 1), delay);
+        const auto holds = [&](const std::string& part) { return outcome.out.find(part) != std::string::npos; };
+        EXPECT_TRUE(holds("t.csv: frame " + std::to_string(frame) + ", law predictive\n")) << outcome.out;
+        EXPECT_TRUE(holds(sfsm::status_text(controller->status()))) << outcome.out;
+        EXPECT_TRUE(holds("asked: " + sfsm::duration_text(rows[frame].target_ms) + ", L ")) << outcome.out;
+        EXPECT_TRUE(
+            holds("recorded: the same decision; the frame took " + sfsm::duration_text(rows[frame].frame_ms) + "\n"))
+            << outcome.out;
+        EXPECT_TRUE(holds("foreseen of that:\n")) << outcome.out;
+    }
+}
+
+// What is said to be foreseen adds up to what is predicted, where forecasts aren't off.
+TEST_F(ReplayProgram, ExplainsOfWhatAPredictionIsMadeUp) {
+    const Outcome outcome = replay(save(recorded_by_rate()) + " --explain 199");
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    double predicted = 0, sum = 0;
+    bool is_foreseen = false;
+    std::istringstream lines(outcome.out);
+    const auto ms_after = [](const std::string& line) {
+        std::istringstream words(line.substr(line.find(": ") + 2));
+        double value = 0;
+        std::string unit;
+        words >> value >> unit;
+        return value * (unit == "ms" ? 1 : unit == "us" ? 1e-3 : 1e-6);
+    };
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with("predicted: ")) predicted = ms_after(line);
+        if (is_foreseen && line.starts_with("  ") && !line.starts_with("  lost: ")) sum += ms_after(line);
+        is_foreseen |= line == "foreseen of that:";
+    }
+    EXPECT_GT(predicted, 0);
+    EXPECT_NEAR(sum, predicted, 0.03 * predicted) << outcome.out;
+}
+
+TEST_F(ReplayProgram, ExplainsOtherLawsOnTheRecordedTimes) {
+    const Outcome outcome = replay(save(recorded()) + " --explain 300 --law paper,safeguarded,valve");
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    for (const char* law : {"paper", "safeguarded", "valve"})
+        EXPECT_NE(outcome.out.find(std::string("frame 300, law ") + law + "\n"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("another decision; with it the frame took"), std::string::npos) << outcome.out;
+    EXPECT_EQ(replay(save(recorded()) + " --explain 300 --law all").code, 0);
+    sfsm::Trace untold = recorded();
+    untold.settings.erase("law");
+    EXPECT_EQ(replay(save(untold) + " --explain 3").code, 1);
+    EXPECT_EQ(replay(save(untold) + " --explain 3 --law paper").code, 0);
 }
 
 TEST_F(ReplayProgram, NamesTheTraceWhoseDelayIsNone) {
