@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sfsm/detail.h"
+#include "sfsm/same_bits.h"
 
 namespace sfsm {
 namespace {

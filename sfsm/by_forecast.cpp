@@ -6,6 +6,7 @@
 #include "sfsm/detail.h"
 #include "sfsm/pair_plans.h"
 #include "sfsm/rate_plans.h"
+#include "sfsm/same_bits.h"
 
 namespace sfsm {
 namespace {

@@ -7,6 +7,7 @@
 #include "sfsm/paper.h"
 #include "sfsm/predictive.h"
 #include "sfsm/safeguarded.h"
+#include "sfsm/same_bits.h"
 
 namespace sfsm {
 namespace {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "sfsm/same_bits.h"
+
 namespace sfsm {
 namespace {
 
@@ -34,7 +36,9 @@ constexpr double least_log_ms = -40, most_log_ms = 40;
 constexpr double median_difference = 0.9539;
 
 double dot(const auto& a, const auto& b, int n) {
-    return std::inner_product(a.begin(), a.begin() + n, b.begin(), 0.0);
+    double sum = 0;
+    for (int i = 0; i < n; ++i) sum += a[i] * b[i];
+    return sum;
 }
 
 }  // namespace

@@ -3,7 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sfsm/same_bits.h"
+
 namespace sfsm {
+namespace {
+
+// Not known to the compiler: Clang would make exp2(6 x) of pow(64, x), which rounds otherwise.
+const volatile double coarsest_over_finest = max_splat_size / finest_splat;
+
+}  // namespace
 
 Decision decision_at(double detail, double range) {
     Decision decision;
@@ -16,7 +24,7 @@ Decision decision_at(double detail, double range) {
     decision.state = State::points;
     decision.motion_distance = detail_of_points * range;
     const double coarseness = 1 - std::max(detail, 0.0) / detail_of_points;
-    decision.splat_size = finest_splat * std::pow(max_splat_size / finest_splat, coarseness);
+    decision.splat_size = finest_splat * std::pow(coarsest_over_finest, coarseness);
     return decision;
 }
 

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <utility>
 
+#include "sfsm/same_bits.h"
+
 namespace sfsm {
 namespace {
 
@@ -30,6 +32,10 @@ double square(double x) {
 }
 
 }  // namespace
+
+double Drift::ahead(double frames) const {
+    return level_ + frames * slope_;
+}
 
 void Drift::observe(double log_load, double detail, double noise) {
     if (!std::exchange(has_begun_, true)) {

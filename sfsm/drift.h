@@ -22,7 +22,7 @@ public:
     double slope() const { return slope_; }  // [ln load per frame]
 
     // ln load so many frames after the newest that was observed.
-    double ahead(double frames) const { return level_ + frames * slope_; }
+    double ahead(double frames) const;
 
 private:
     struct Weights {

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <span>
 
+#include "sfsm/same_bits.h"
+
 namespace sfsm {
 namespace {
 

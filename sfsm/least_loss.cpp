@@ -5,6 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "sfsm/between.h"
+#include "sfsm/same_bits.h"
+
 namespace sfsm {
 namespace {
 
@@ -45,10 +48,10 @@ struct Place {
 void take_motion(Plan& plan, const Forecast& forecast, double range, const Place& place) {
     const Step& b = forecast.motion[place.at];
     const Step& a = place.share < 1 ? forecast.motion[place.at - 1] : b;
-    plan.distance = std::lerp(distance_of(a, range), distance_of(b, range), place.share);
+    plan.distance = between(distance_of(a, range), distance_of(b, range), place.share);
     for (const WorkKind kind : work_on<WorkAxis::motion>)
-        plan.counts[index_of(kind)] = std::lerp(counted(a.work[kind]), counted(b.work[kind]), place.share);
-    plan.loss += std::lerp(a.loss_px, b.loss_px, place.share);
+        plan.counts[index_of(kind)] = between(counted(a.work[kind]), counted(b.work[kind]), place.share);
+    plan.loss += between(a.loss_px, b.loss_px, place.share);
 }
 
 void take_shapes(Plan& plan, const Forecast& forecast, const Place& place) {
@@ -57,7 +60,7 @@ void take_shapes(Plan& plan, const Forecast& forecast, const Place& place) {
     plan.size = power_between(a.setting, b.setting, place.share);
     for (const WorkKind kind : work_on<WorkAxis::shape>)
         plan.counts[index_of(kind)] = power_between(counted(a.work[kind]), counted(b.work[kind]), place.share);
-    plan.loss += std::lerp(a.loss_px, b.loss_px, place.share);
+    plan.loss += between(a.loss_px, b.loss_px, place.share);
 }
 
 State state_of(const Plan& plan, double range) {
@@ -92,7 +95,7 @@ Place fitting_place(std::span<const Step> steps, double rest, const Times& times
 
 double loss_at(std::span<const Step> steps, const Place& place) {
     const double b = steps[place.at].loss_px;
-    return place.share < 1 ? std::lerp(steps[place.at - 1].loss_px, b, place.share) : b;
+    return place.share < 1 ? between(steps[place.at - 1].loss_px, b, place.share) : b;
 }
 
 // The cheapest place from there on that loses as little: a renderer may gain nothing from its finest steps.
@@ -101,7 +104,7 @@ Place cheapest_alike(std::span<const Step> steps, Place place, const Times& time
     if (place.at >= steps.size()) return place;
     const double loss = loss_at(steps, place);
     double least_ms = times[place.at];
-    if (place.share < 1) least_ms = std::lerp(times[place.at - 1], least_ms, place.share);
+    if (place.share < 1) least_ms = between(times[place.at - 1], least_ms, place.share);
     for (std::size_t i = place.at; i < steps.size() && steps[i].loss_px <= loss; ++i) {
         const double ms = times[i];
         if (!is_cheaper(ms, least_ms)) continue;

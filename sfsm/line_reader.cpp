@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "sfsm/same_bits.h"
+
 namespace sfsm {
 namespace {
 

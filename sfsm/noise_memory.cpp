@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "sfsm/same_bits.h"
+
 namespace sfsm {
 namespace {
 

@@ -3,6 +3,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "sfsm/same_bits.h"
+
 namespace sfsm {
 namespace {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sfsm/least_loss.h"
+#include "sfsm/same_bits.h"
 
 namespace sfsm {
 namespace {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "sfsm/same_bits.h"
 #include "sfsm/usable.h"
 
 namespace sfsm {

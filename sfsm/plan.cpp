@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sfsm/between.h"
+#include "sfsm/same_bits.h"
 #include "sfsm/usable.h"
 
 namespace sfsm {
@@ -34,7 +36,7 @@ bool is_cheaper(double ms, double other_ms) {
 }
 
 double power_between(double a, double b, double share) {
-    return a > 0 && b > 0 ? a * std::pow(b / a, share) : std::lerp(a, b, share);
+    return a > 0 && b > 0 ? a * std::pow(b / a, share) : between(a, b, share);
 }
 
 }  // namespace sfsm

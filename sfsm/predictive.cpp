@@ -1,5 +1,6 @@
 #include "sfsm/predictive.h"
 
+#include "sfsm/same_bits.h"
 #include "sfsm/usable.h"
 
 namespace sfsm {

@@ -3,6 +3,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "sfsm/same_bits.h"
+
 namespace sfsm {
 
 void PredictiveOptions::validate() const {

@@ -30,10 +30,6 @@ constexpr Prices operator*(double factor, Prices prices) {
 }
 
 // What a frame of this work takes [ms].
-constexpr double cost_of(const Work& work, const Prices& prices) {
-    double ms = prices.frame;
-    for (std::size_t i = 0; i < work_kinds; ++i) ms += prices.each[i] * counted(work.counts[i]);
-    return ms;
-}
+double cost_of(const Work& work, const Prices& prices);
 
 }  // namespace sfsm

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sfsm/between.h"
 #include "sfsm/least_loss.h"
 #include "sfsm/pair_plans.h"
+#include "sfsm/same_bits.h"
 
 namespace sfsm {
 namespace {
@@ -40,7 +42,7 @@ std::array<double, work_kinds> RatePlans::counts_at(const Place& place) const {
 double RatePlans::loss_at(const Place& place) const {
     const double b = forecast_.rates[place.at].loss;
     const double a = place.share < 1 ? forecast_.rates[place.at - 1].loss : b;
-    return std::lerp(a, b, place.share) / flip_of_a_pixel;
+    return between(a, b, place.share) / flip_of_a_pixel;
 }
 
 Plan RatePlans::plan_of(const Place& place) const {
@@ -48,7 +50,7 @@ Plan RatePlans::plan_of(const Place& place) const {
     const RateStep& a = place.share < 1 ? forecast_.rates[place.at - 1] : b;
     Plan plan;
     plan.state = b.state;
-    plan.distance = std::lerp(std::min(range_, a.motion_distance), std::min(range_, b.motion_distance), place.share);
+    plan.distance = between(std::min(range_, a.motion_distance), std::min(range_, b.motion_distance), place.share);
     plan.size = power_between(a.splat_size > 0 ? a.splat_size : b.splat_size, b.splat_size, place.share);
     plan.rate = power_between(a.rate, b.rate, place.share);
     plan.counts = counts_at(place);

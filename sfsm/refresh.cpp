@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sfsm/same_bits.h"
+
 namespace sfsm {
 
 // How fast the gain is let down while frames are in time.

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "sfsm/number_text.h"
+#include "sfsm/same_bits.h"
 #include "sfsm/text.h"
 #include "sfsm/trace_columns.h"
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "sfsm/same_bits.h"
+
 namespace sfsm {
 namespace {
 

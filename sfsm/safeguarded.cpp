@@ -5,7 +5,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "sfsm/between.h"
 #include "sfsm/detail.h"
+#include "sfsm/same_bits.h"
 #include "sfsm/usable.h"
 
 namespace sfsm {
@@ -89,7 +91,7 @@ void learn_slope(Memory& m, const Constants& c) {
     double slope = is_clear ? (1 - std::exp(-change)) / moved : 0;
     if (m.slope != 0) {
         slope = std::clamp(slope, old_slope / most_slope_change, old_slope * most_slope_change);
-        if (is_clear) slope = std::lerp(old_slope, slope, 1 - doubt / std::abs(change));
+        if (is_clear) slope = between(old_slope, slope, 1 - doubt / std::abs(change));
     }
     m.slope = std::clamp(slope, gentlest_slope, steepest_slope);
     m.slope_detail = m.detail;

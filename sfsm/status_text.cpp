@@ -5,6 +5,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "sfsm/same_bits.h"
+
 namespace sfsm {
 namespace {
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sfsm/number_text.h"
+#include "sfsm/same_bits.h"
 
 namespace sfsm {
 namespace {

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "sfsm/number_text.h"
+#include "sfsm/same_bits.h"
 
 namespace sfsm {
 namespace {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sfsm/same_bits.h"
+
 namespace sfsm {
 namespace {
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sfsm/line_reader.h"
+#include "sfsm/same_bits.h"
 #include "sfsm/trace_columns.h"
 
 namespace sfsm {

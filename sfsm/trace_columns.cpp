@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "sfsm/number_text.h"
+#include "sfsm/same_bits.h"
 #include "sfsm/text.h"
 
 namespace sfsm {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "sfsm/same_bits.h"
+
 namespace sfsm {
 namespace {
 
