@@ -30,7 +30,7 @@ std::vector<sim::Contestant> contestants() {
                     false});
     for (const std::string_view name : sfsm::law_names()) {
         laws.push_back({std::string(name), [=](const sim::Course& course) {
-                            return sfsm::make_controller(name, course.scenario.drawing);
+                            return sfsm::make_controller(name, {course.scenario.drawing});
                         }});
     }
     for (const std::string_view name : sfsm::rival_names()) {

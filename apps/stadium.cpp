@@ -65,7 +65,7 @@ public:
           width_(options.width),
           height_(options.height) {
         canvas_.set_up(*stage_, options);
-        controller_ = sfsm::make_controller(options.law, canvas_.way().drawing);
+        controller_ = sfsm::make_controller(options.law, {canvas_.way().drawing});
         render::SelectOptions select;
         select.way = &canvas_.way();
         if (options_.max_error) select.max_error = *options_.max_error;

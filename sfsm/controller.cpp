@@ -14,15 +14,17 @@ namespace {
 
 struct Law {
     std::string_view name;
-    std::unique_ptr<Controller> (*make)(Drawing drawing);
+    std::unique_ptr<Controller> (*make)(const LawOptions& options);
 };
 
 using Made = std::unique_ptr<Controller>;
 constexpr std::array laws = {
     Law{"predictive",
-        [](Drawing drawing) -> Made { return std::make_unique<PredictiveLaw>(PredictiveOptions{}, drawing); }},
-    Law{"safeguarded", [](Drawing) -> Made { return std::make_unique<SafeguardedLaw>(); }},  // these two price nothing
-    Law{"paper", [](Drawing) -> Made { return std::make_unique<PaperLaw>(); }},
+        [](const LawOptions& options) -> Made {
+            return std::make_unique<PredictiveLaw>(options.predictive, options.drawing);
+        }},
+    Law{"safeguarded", [](const LawOptions&) -> Made { return std::make_unique<SafeguardedLaw>(); }},
+    Law{"paper", [](const LawOptions&) -> Made { return std::make_unique<PaperLaw>(); }},
 };
 
 constexpr auto names = [] {
@@ -37,9 +39,10 @@ std::span<const std::string_view> law_names() {
     return names;
 }
 
-std::unique_ptr<Controller> make_controller(std::string_view law, Drawing drawing) {
+std::unique_ptr<Controller> make_controller(std::string_view law, const LawOptions& options) {
+    options.predictive.validate();
     for (const Law& known : laws) {
-        if (known.name == law) return known.make(drawing);
+        if (known.name == law) return known.make(options);
     }
     std::string message = "found law '" + std::string(law) + "', expected one of:";
     for (const std::string_view name : names) message.append(" ").append(name);

@@ -14,6 +14,9 @@ inline constexpr int detail_steps = 8;
 
 inline constexpr double first_splat = 4 * finest_splat;  // of frames whose time nobody knows yet
 
+// L where nobody says how far people are visible: D is in hundredths of that.
+inline constexpr double unknown_range = 100;
+
 // `detail` in [0, 1], range > 0 [m]:
 //   1             state 0
 //   from 2/3      state 1, D = detail * L
@@ -22,6 +25,7 @@ inline constexpr double first_splat = 4 * finest_splat;  // of frames whose time
 Decision decision_at(double detail, double range);
 
 // The detail that a decision has. For one that is not on this axis: the detail of the nearest one in its state.
-double detail_of(const Decision& decision, double range);
+// Without a range: of a law that was given none.
+double detail_of(const Decision& decision, double range = unknown_range);
 
 }  // namespace sfsm

@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "sfsm/decision.h"
+#include "sfsm/pairing.h"
 
 namespace sfsm {
 
@@ -20,7 +21,7 @@ public:
     }
     bool contains(const Decision& decision) const {
         const auto end = ring_.begin() + static_cast<std::ptrdiff_t>(count_);
-        return std::find(ring_.begin(), end, decision) != end;
+        return std::any_of(ring_.begin(), end, [&](const Decision& drawn) { return is_alike(drawn, decision); });
     }
     void clear() { count_ = 0; }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "sfsm/detail.h"
 #include "sfsm/same_bits.h"
 #include "sfsm/usable.h"
 
@@ -233,8 +234,16 @@ std::span<const PaperTransition> paper_transitions() {
 
 PaperLaw::PaperLaw(const PaperConstants& constants) : constants_(constants) {
     constants_.validate();
+    memory_.range = unknown_range;
     memory_.patience = constants_.first_patience;
     memory_.since_return = constants_.trial;
+}
+
+void PaperLaw::reset() {
+    PaperLaw fresh(constants_);
+    fresh.memory_.range = memory_.range;
+    fresh.memory_.target_ms = fresh.status_.target_ms = memory_.target_ms;
+    *this = fresh;
 }
 
 void PaperLaw::observe(const FrameSample& sample) {
@@ -258,7 +267,7 @@ Decision PaperLaw::decide(const FrameRequest& request) {
         has_new_target = true;
     }
     status_.kept_for += 1;
-    const bool is_ready = memory_.target_ms > 0 && memory_.range > 0;
+    const bool is_ready = memory_.target_ms > 0;
     if (is_ready && (is_new_ || (is_answered_ && has_new_target))) step();
     drawn_.add(status_.decision = decision());
     return status_.decision;

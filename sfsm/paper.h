@@ -92,13 +92,14 @@ std::span<const PaperTransition> paper_transitions();
 // Takes one step for each time that was drawn with its newest decision. A late time that answers an older decision is
 // no step, so one measurement is never stepped on twice (samples up to 32 distinct decisions late). A new target is
 // judged at once by the newest time. In state 0 the decision is Decision{} (D infinite), in the others D is in
-// [L / 6, L]. Until a usable target and range have been seen it is state 0.
+// [L / 6, L]. Until a usable target has been seen it is state 0.
 class PaperLaw final : public Controller {
 public:
     explicit PaperLaw(const PaperConstants& constants = {});  // throws as validate() does
 
     void observe(const FrameSample& sample) override;
     Decision decide(const FrameRequest& request) override;
+    void reset() override;
     const Status& status() const override { return status_; }
     const PaperMemory& memory() const { return memory_; }
 

@@ -3,12 +3,13 @@
 // docs/controller.md tells the story.
 #pragma once
 
-#include <cstdint>
+#include <optional>
 
 #include "sfsm/aim.h"
 #include "sfsm/by_axis.h"
 #include "sfsm/by_forecast.h"
 #include "sfsm/controller.h"
+#include "sfsm/pairing.h"
 #include "sfsm/predictive_options.h"
 
 namespace sfsm {
@@ -21,14 +22,19 @@ public:
 
     void observe(const FrameSample& sample) override;
     Decision decide(const FrameRequest& request) override;
+    void reset() override;
     const Status& status() const override { return aim_.status; }
 
 private:
+    void take(const FrameRequest& request);
+
+    Drawing drawing_;
     Aim aim_;
-    ForecastLaw by_forecast_;
-    AxisLaw by_axis_{aim_};
+    std::optional<ForecastLaw> by_forecast_;  // always there; made anew by reset()
+    std::optional<AxisLaw> by_axis_;
+    Pairing pairing_;
+    double given_range_ = 0;     // [m]; 0: none yet
     bool has_forecast_ = false;  // of the newest decision
-    std::int64_t decisions_ = 0;
 };
 
 }  // namespace sfsm

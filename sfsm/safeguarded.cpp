@@ -436,10 +436,17 @@ Decision SafeguardedLaw::decide(const FrameRequest& request) {
     if (is_usable(request.range)) range_ = request.range;
     if (is_usable(request.target_ms) && request.target_ms != status_.target_ms) retarget(request.target_ms);
     status_.kept_for += 1;
-    if (is_new_ && status_.target_ms > 0 && range_ > 0) step();
+    if (is_new_ && status_.target_ms > 0) step();
     is_new_ = false;
-    if (range_ > 0) drawn_.add(status_.decision = decision_at(memory_.detail, range_));
+    drawn_.add(status_.decision = decision_at(memory_.detail, range_));
     return status_.decision;
+}
+
+void SafeguardedLaw::reset() {
+    SafeguardedLaw fresh(constants_);
+    fresh.range_ = range_;
+    if (status_.target_ms > 0) fresh.retarget(status_.target_ms);
+    *this = fresh;
 }
 
 // The slope that was learned stays. The bracket, waits and holds belong to the old target and are forgotten.

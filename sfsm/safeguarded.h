@@ -8,6 +8,7 @@
 #include <span>
 
 #include "sfsm/controller.h"
+#include "sfsm/detail.h"
 #include "sfsm/drawn.h"
 
 namespace sfsm {
@@ -104,6 +105,7 @@ public:
 
     void observe(const FrameSample& sample) override;
     Decision decide(const FrameRequest& request) override;
+    void reset() override;
     const Status& status() const override { return status_; }
     const SafeguardedMemory& memory() const { return memory_; }
 
@@ -115,7 +117,7 @@ private:
     SafeguardedConstants constants_;
     SafeguardedMemory memory_;
     Status status_;
-    double range_ = 0;                  // L [m]; 0: none yet
+    double range_ = unknown_range;      // L [m]
     std::array<double, 32> changes_{};  // |log T_i - log T_{i-1}| of equal decisions, newest first
     std::size_t change_count_ = 8;      // the first ones are assumed
     double last_level_ = 0;             // log of the newest time of the present detail

@@ -12,6 +12,8 @@ constexpr double rise_tax = 0.05;     // of the quality: a rise starts where the
 constexpr double largest_step = 0.1;  // of quality
 
 class DarkPlaces final : public OneKnob {
+    void forget() override { *this = DarkPlaces(); }
+
     void learn(const Measured& measured) override {
         double step = gain * detail() * (1 / measured.load - 1);
         if (step > 0) step = std::max(0.0, step - rise_tax * detail());

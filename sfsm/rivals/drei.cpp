@@ -18,6 +18,8 @@ public:
     Drei() : OneKnob(start) {}
 
 private:
+    void forget() override { *this = Drei(); }
+
     void learn(const Measured& measured) override {
         elapsed_ms_ += measured.ms;
         ++frames_;

@@ -16,6 +16,8 @@ constexpr double integral_limit = 100;
 constexpr double dead_below = -0.01, dead_above = 0.05;  // output between them is 0
 
 class Filament final : public OneKnob {
+    void forget() override { *this = Filament(); }
+
     void learn(const Measured& measured) override {
         loads_.push(measured.load);
         const double error = 1 - loads_.median() / (1 - headroom);

@@ -11,6 +11,8 @@ constexpr double knob_range = 1 - least_detail;
 constexpr double fall_step = knob_range / 2, rise_step = knob_range / 5;
 
 class Hdrp final : public OneKnob {
+    void forget() override { *this = Hdrp(); }
+
     void learn(const Measured& measured) override {
         sum_ += measured.load;
         if (++frames_ < group) return;

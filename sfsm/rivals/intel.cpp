@@ -14,6 +14,8 @@ constexpr std::size_t history = 10;  // [frames]
 constexpr double rate = 0.01;        // of the scale, a frame, at an error of 1
 
 class Intel final : public OneKnob {
+    void forget() override { *this = Intel(); }
+
     void learn(const Measured& measured) override {
         loads_.push(measured.load);
         const double error = 1 - loads_.mean();

@@ -16,6 +16,8 @@ constexpr double damping = 0.5;            // share of the secant step taken
 constexpr double full_range = 240;         // [nodes] of view range at detail 1: ours, its longest preset
 
 class Minetest final : public OneKnob {
+    void forget() override { *this = Minetest(); }
+
     void learn(const Measured& measured) override {
         elapsed_ms_ += measured.ms;
         ++frames_;

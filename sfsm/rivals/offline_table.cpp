@@ -22,6 +22,8 @@ public:
     explicit OfflineTable(std::vector<double> costs_ms) : costs_ms_(std::move(costs_ms)) {}
 
 private:
+    void forget() override { *this = OfflineTable(std::move(costs_ms_)); }
+
     void learn(const Measured& measured) override {
         log_gain_ += share_of_new * (std::log(measured.ms / cost_ms(measured.detail)) - log_gain_);
         const double budget_ms = measured.target_ms / std::exp(log_gain_);

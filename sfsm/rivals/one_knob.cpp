@@ -20,7 +20,7 @@ void OneKnob::observe(const FrameSample& sample) {
         return;
     }
     status_.last_ms = sample.ms;
-    if (target_ms_ == 0 || range_ == 0) return;
+    if (target_ms_ == 0) return;
     const double load = std::clamp(sample.ms / target_ms_, 1 / largest_load, largest_load);
     const double drawn = detail_of(sample.decision, range_);
     learn({load * target_ms_, target_ms_, load, std::isfinite(drawn) ? drawn : detail_});
@@ -32,8 +32,16 @@ Decision OneKnob::decide(const FrameRequest& request) {
         status_.target_ms = request.target_ms;
         target_ms_ = std::clamp(request.target_ms, shortest_target, longest_target);
     }
-    if (target_ms_ > 0 && range_ > 0) status_.decision = decision_at(detail_, range_);
+    if (target_ms_ > 0) status_.decision = decision_at(detail_, range_);
     return status_.decision;
+}
+
+void OneKnob::reset() {
+    const double target_ms = target_ms_, asked_ms = status_.target_ms, range = range_;
+    forget();
+    target_ms_ = target_ms;
+    status_.target_ms = asked_ms;
+    range_ = range;
 }
 
 bool OneKnob::turn_to(double detail, const char* reason) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "sfsm/controller.h"
+#include "sfsm/detail.h"
 
 namespace sfsm {
 
@@ -14,6 +15,7 @@ class OneKnob : public Controller {
 public:
     void observe(const FrameSample& sample) final;
     Decision decide(const FrameRequest& request) final;
+    void reset() final;
     const Status& status() const final { return status_; }
 
     double detail() const { return detail_; }  // [least_detail, 1]
@@ -31,14 +33,17 @@ protected:
 
     virtual void learn(const Measured& measured) = 0;
 
+    // The law becomes one that was just made, base and all.
+    virtual void forget() = 0;
+
     // Limits to [least_detail, 1]. True when it could not go all the way.
     bool turn_to(double detail, const char* reason);
     void keep(const char* reason) { status_.reason = reason; }
 
 private:
     double detail_;
-    double target_ms_ = 0;  // 0: none yet
-    double range_ = 0;      // [m]; 0: none yet
+    double target_ms_ = 0;          // 0: none yet
+    double range_ = unknown_range;  // [m]
     Status status_;
 };
 

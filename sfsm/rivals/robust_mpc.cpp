@@ -15,6 +15,8 @@ namespace {
 constexpr std::size_t history = 5;  // [frames]
 
 class RobustMpc final : public OneKnob {
+    void forget() override { *this = RobustMpc(); }
+
     void learn(const Measured& measured) override {
         const double cost = measured.load / std::max(measured.detail, least_detail);  // of all detail, in targets
         // The mean rate is 1 / mean cost, so its relative error against this frame's rate is cost / mean - 1.

@@ -16,6 +16,8 @@ constexpr int periods_to_rise = 3;
 constexpr double spare = 0.05;  // of the budget
 
 class SecondLife final : public OneKnob {
+    void forget() override { *this = SecondLife(); }
+
     void learn(const Measured& measured) override {
         loads_.push(measured.load);
         if (!loads_.is_full()) return keep("waiting");

@@ -16,6 +16,8 @@ constexpr double fast_delay_ms = 4000, delay_ms = 10000;
 constexpr double step = 0.1;  // of detail: ours
 
 class UnityAdaptive final : public OneKnob {
+    void forget() override { *this = UnityAdaptive(); }
+
     void learn(const Measured& measured) override {
         loads_.push(measured.load);
         excesses_.push(loads_.mean() - 1);

@@ -17,6 +17,8 @@ constexpr double least_share = 0.25;                // of the largest rise, at l
 constexpr double least_spare = 0.1, most_spare = 0.5;
 
 class UnitySample final : public OneKnob {
+    void forget() override { *this = UnitySample(); }
+
     void learn(const Measured& measured) override {
         const double spare = 1 - measured.load, growth = has_last_ ? measured.load - last_ : 0;
         last_ = measured.load;

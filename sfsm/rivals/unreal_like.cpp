@@ -20,6 +20,8 @@ constexpr int panic_frames = 2;            // over t, in a row
 constexpr double rise_amortisation = 0.9;  // share of a rise that is taken
 
 class UnrealLike final : public OneKnob {
+    void forget() override { *this = UnrealLike(); }
+
     void learn(const Measured& measured) override {
         loads_.push(measured.load);
         since_change_ = std::min(since_change_ + 1, change_period);

@@ -17,6 +17,8 @@ constexpr double high = 0.9, nearly_high = 0.85, low = 0.7;    // shares of t
 constexpr int drop_wait = 3, predict_wait = 4, full_wait = 5;  // [frames] since a change
 
 class Valve final : public OneKnob {
+    void forget() override { *this = Valve(); }
+
     void learn(const Measured& measured) override {
         loads_.push(measured.load);
         since_change_ = std::min(since_change_ + 1, full_wait);

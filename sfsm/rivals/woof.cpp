@@ -17,6 +17,8 @@ constexpr double slow_ratios[] = {1.08, 1.2, 1.5};  // a step down for each that
 constexpr double fast_ratios[] = {0.6, 0.4};        // a step up for each that is undercut
 
 class Woof final : public OneKnob {
+    void forget() override { *this = Woof(); }
+
     void learn(const Measured& measured) override {
         loads_.push(measured.load);
         if (!loads_.is_full()) return;  // also the cooldown: one history after each step

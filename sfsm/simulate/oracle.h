@@ -15,6 +15,7 @@ public:
 
     void observe(const FrameSample& sample) override { status_.last_ms = sample.ms; }
     Decision decide(const FrameRequest& request) override;
+    void reset() override {}  // it has learned nothing
     const Status& status() const override { return status_; }
 
 private:

@@ -9,6 +9,7 @@
 
 #include "sfsm/controller.h"
 #include "sfsm/decision.h"
+#include "sfsm/detail.h"
 #include "sfsm/forecast.h"
 
 namespace {
@@ -75,6 +76,19 @@ void run(std::string_view name, const sfsm::Forecast* forecast) {
     }
 }
 
+// An engine of one knob, which knows nothing but times: no range, no work, no forecast.
+void run_one_knob() {
+    const std::unique_ptr<sfsm::Controller> law = sfsm::make_controller("predictive");
+    for (std::int64_t frame = 1000; frame < 1100; ++frame) {
+        if (frame == 1050) law->reset();
+        const sfsm::Decision decision = law->decide({.target_ms = 16.5});
+        const double detail = sfsm::detail_of(decision);
+        const double ms = static_cast<double>(256 + static_cast<int>(detail * 1024)) / 32;
+        law->observe({frame, ms, decision, {}});
+        std::printf("detail %a\n", detail);
+    }
+}
+
 }  // namespace
 
 int main() {
@@ -82,4 +96,5 @@ int main() {
     const sfsm::Forecast by_rates{sfsm::Work{20000}, motion, shapes, rates};
     for (const sfsm::Forecast* forecast : {&by_pairs, &by_rates}) run("predictive", forecast);
     for (const std::string_view name : sfsm::law_names()) run(name, nullptr);
+    run_one_knob();
 }

@@ -150,7 +150,7 @@ private:
     Controller& law_;
     Forecasts forecasts_;
     Decision decision_;
-    double range_ = 0;  // the last usable one
+    double range_ = unknown_range;  // or the last usable one
     std::int64_t frame_ = 0;
 };
 

@@ -581,8 +581,8 @@ TEST(PredictiveForecast, ACutToAnotherBackgroundIsInBandOnItsFirstFrame) {
 TEST(PredictiveForecast, NothingIsDrawnFinerAtFirstThanItsOwnDrawingIsBelievedToAllow) {
     const Scene scene = scene_of(4000);
     const FrameRequest request{target_ms, test_range, &scene.forecast};
-    const Decision gl = make_controller("predictive", Drawing::opengl)->decide(request);
-    const Decision native = make_controller("predictive", Drawing::native)->decide(request);
+    const Decision gl = make_controller("predictive", {.drawing = Drawing::opengl})->decide(request);
+    const Decision native = make_controller("predictive", {.drawing = Drawing::native})->decide(request);
     ASSERT_EQ(gl.state, State::points);
     ASSERT_EQ(native.state, State::points);
     EXPECT_LT(native.splat_size, gl.splat_size / 4);

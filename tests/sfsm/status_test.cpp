@@ -119,6 +119,8 @@ struct ProbeCount {
             if (was_probe && status.kept_for > 0) {
                 EXPECT_EQ(status.decision, kept);
             }
+            EXPECT_EQ(std::string_view(status.reason).find("learning"), std::string_view::npos);
+            EXPECT_EQ(std::string_view(status.reason).find("in vain"), std::string_view::npos);
             kept = status.decision;
         }
         was_probe = status.is_probe;

@@ -25,6 +25,7 @@ public:
         decisions.push_back(status_.decision);
         return status_.decision;
     }
+    void reset() override {}
     const Status& status() const override { return status_; }
 
     std::vector<FrameSample> samples;

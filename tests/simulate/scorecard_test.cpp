@@ -26,6 +26,7 @@ public:
         status_.decision = decision_at((request.target_ms / nominal_ms - 0.3) / 1.2, request.range);
         return status_.decision;
     }
+    void reset() override {}
     const Status& status() const override { return status_; }
 
 private:
@@ -83,6 +84,7 @@ TEST(Scorecard, EqualMissTurnsTheTargetUntilTheMissesAreTheReferences) {
                                  Decision decide(const FrameRequest& request) override {
                                      return constant_.decide({0.97 * request.target_ms, request.range, nullptr});
                                  }
+                                 void reset() override {}
                                  const Status& status() const override { return constant_.status(); }
 
                              private:
@@ -217,6 +219,7 @@ TEST(Scorecard, MissesThatNoFactorGivesAreMarked) {
                               public:
                                   void observe(const FrameSample&) override {}
                                   Decision decide(const FrameRequest&) override { return {}; }
+                                  void reset() override {}
                                   const Status& status() const override { return status_; }
 
                               private:

@@ -45,8 +45,8 @@ Measured mark(const Sight& sight, std::string_view law, double target_ms, const 
 Loop::Loop(const Sight& sight, std::string_view law)
     : sight_(sight),
       law_(law),
-      controller_(sfsm::make_controller(law == law_by_knobs ? sfsm::law_names().front() : law, sfsm::Drawing::native)) {
-}
+      controller_(
+          sfsm::make_controller(law == law_by_knobs ? sfsm::law_names().front() : law, {sfsm::Drawing::native})) {}
 
 sfsm::Decision Loop::settle(double target_ms, Patience patience) {
     const Size size = sight_.venue().size();
