@@ -69,10 +69,11 @@ Prediction WorkModel::predict(const Plan& plan) const {
 }
 
 Prices WorkModel::prices() const {
+    const double gain = costs_.gain();
     Prices prices;
-    prices.frame = costs_.gain() * costs_.price(0) * frame_amount_;
+    prices.frame = gain * costs_.price(0) * frame_amount_;
     for (std::size_t i = 0; i < work_kinds; ++i)
-        prices.each[i] = costs_.gain() * costs_.price(static_cast<int>(i) + 1) * work_table[i].prior(drawing_).pieces;
+        prices.each[i] = gain * costs_.price(static_cast<int>(i) + 1) * work_table[i].prior(drawing_).pieces;
     return prices;
 }
 
