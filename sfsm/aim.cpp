@@ -15,6 +15,8 @@ constexpr double unsure = 0.2;      // uncertainty from which all that was learn
 constexpr double longest_leap = 4;  // [times of the newest frame]
 constexpr double no_leap = 1.25;    // [times of the newest frame]
 
+constexpr double clearly = 1.01;  // [target] slower
+
 }  // namespace
 
 void Aim::begin() {
@@ -50,6 +52,10 @@ double Aim::leap_ms(double uncertainty) const {
 bool Aim::is_kept(const Prediction& prediction, double aim_ms) const {
     const double band = std::max(options.band, options.band_sigmas * prediction.uncertainty);
     return std::abs(prediction.log_ms - std::log(aim_ms)) <= band;
+}
+
+bool Aim::is_capped(const Refresh& refresh) const {
+    return refresh.is_capped() && target_ms > clearly * asked_ms;
 }
 
 const char* Aim::reason_to_move(const Prediction& kept, double aim_ms, double least_ms) const {

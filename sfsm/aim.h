@@ -9,7 +9,11 @@
 
 namespace sfsm {
 
-inline constexpr const char* reason_to_guess = "no time is known yet: a guess";  // Status::reason
+// Status::reason.
+inline constexpr const char* reason_to_guess = "no time is known yet: a guess";
+inline constexpr const char* reason_to_test_cap = "frames wait: is less detail still in vain?";
+
+inline constexpr int longest_cap_wait = 2048;  // [decisions] between tests of a cap that is slower than the target
 
 struct Aim {
     PredictiveOptions options;
@@ -35,6 +39,9 @@ struct Aim {
     // The longest time [ms] that may be predicted for a decision that is known no better, when it is moved to. Less
     // than aim_ms() where it would be a leap in the dark: many times the time of the newest frame.
     double leap_ms(double uncertainty) const;
+
+    // Frames are believed to wait for a cap that is slower than the target.
+    bool is_capped(const Refresh& refresh) const;
 
     // Near enough to the aim to change nothing.
     bool is_kept(const Prediction& prediction, double aim_ms) const;

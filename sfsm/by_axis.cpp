@@ -18,7 +18,6 @@ constexpr double out_of_reach_band = 0.05;  // over the aim, relative
 constexpr double finest_points = 0.99 * detail_of_points;
 constexpr double unknown_points = 0.1;  // uncertainty of what is beyond them
 constexpr double most_ahead = 16;       // [frames] that the load is foreseen, of a drift
-constexpr double clearly = 1.01;        // [target] that a cap is slower
 constexpr double retested_share = 0.5;  // of the detail
 constexpr double least_retested = 0.1;  // detail
 constexpr double near_by = 2;           // [sigmas] from what was predicted
@@ -114,14 +113,12 @@ void AxisLaw::tell() const {
 // Where the target is out of reach, the detail that is kept is believed to cost little; under a cap, nothing.
 AxisLaw::Drawn AxisLaw::next_drawn() {
     const bool has_less = costs_.is_ready() && detail_ > least_retested;
-    const bool is_capped = refresh_.is_capped() && aim_.target_ms > clearly * aim_.asked_ms;
     const bool is_given_up = !refresh_.is_waiting() && has_less && is_out_of_reach();
     const bool is_reach_tested = reach_retest_.step(is_given_up, costs_.shifts());
-    const bool is_cap_tested = cap_retest_.step(has_less && is_capped, costs_.shifts());
+    const bool is_cap_tested = cap_retest_.step(has_less && aim_.is_capped(refresh_), costs_.shifts());
     if (!is_reach_tested && !is_cap_tested) return {{}, detail_, false};
     aim_.status.is_probe = true;
-    aim_.status.reason =
-        is_cap_tested ? "frames wait: is less detail still in vain?" : "out of reach: is less detail still in vain?";
+    aim_.status.reason = is_cap_tested ? reason_to_test_cap : "out of reach: is less detail still in vain?";
     return {{}, retested_share * detail_, true};
 }
 

@@ -63,7 +63,7 @@ private:
     Ceiling ceiling_;
     Drift drift_;
     Heard newest_;
-    Retest reach_retest_{256}, cap_retest_{2048};
+    Retest reach_retest_{256}, cap_retest_{longest_cap_wait};
     double detail_ = 1;
     std::array<Drawn, 16> drawn_{};  // the newest decisions; L may have moved since, so each with its detail
     std::size_t drawn_count_ = 0;

@@ -18,6 +18,7 @@ constexpr double unknown_least = 0.0275;   // uncertainty of the cheapest plan t
 constexpr int first_probe = 12;            // times before it: the noise of a frame has to be known
 constexpr int quiet_before_probe = 8;      // decisions without change
 constexpr int longest_wanted_wait = 1024;  // [decisions] without change before finer detail is tried again
+constexpr double retested_share = 0.5;     // of the time that is predicted
 constexpr int longest_wait = 24;           // decisions until a probe's time is given up
 
 }  // namespace
@@ -146,14 +147,25 @@ Plan ForecastLaw::surely_fitting(const Plans& plans, const Plan& best, double le
 
 // One frame with half the motion, or with points: what the way down would cost, before it is needed. Where the target
 // is out of reach, with more detail than is believed to be worth its time, as that may be wrong.
+// A cap that is slower than the target is tested again, as something else may have been taken for one.
 void ForecastLaw::probe(const Plans& plans) {
+    if (cap_retest_.step(aim_.is_capped(model_.refresh()), model_.costs().shifts())) {
+        const Plan less = plans.least_loss(model_.foreseen_prices(), retested_share * aim_.status.predicted_ms);
+        aim_.status.reason = reason_to_test_cap;
+        return draw_probe(plans, less);
+    }
     if (!is_time_to_probe()) return;
     const std::optional<Plan> plan = next_probe(plans, plans.at(kept_));
     if (!plan) return;
-    aim_.believe(model_.predict(*plan), model_.costs());
-    aim_.status.decision = probe_.decision = plans.decision_of(*plan);
-    aim_.status.is_probe = true;
+    draw_probe(plans, *plan);
+    probe_.decision = aim_.status.decision;
     probe_.age = 1;
+}
+
+void ForecastLaw::draw_probe(const Plans& plans, const Plan& plan) {
+    aim_.believe(model_.predict(plan), model_.costs());
+    aim_.status.decision = plans.decision_of(plan);
+    aim_.status.is_probe = true;
 }
 
 // Counts this decision. A probe waits until the one before has been answered.

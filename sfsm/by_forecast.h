@@ -9,6 +9,7 @@
 #include "sfsm/aim.h"
 #include "sfsm/forecast.h"
 #include "sfsm/plans.h"
+#include "sfsm/retest.h"
 #include "sfsm/work_model.h"
 
 namespace sfsm {
@@ -42,6 +43,7 @@ private:
     Plan best_plan(const Plans& plans, double least_ms, double budget_ms) const;
     Plan surely_fitting(const Plans& plans, const Plan& best, double least_ms, double aim_ms) const;
     void probe(const Plans& plans);
+    void draw_probe(const Plans& plans, const Plan& plan);
     bool is_time_to_probe();
     std::optional<Plan> next_probe(const Plans& plans, const Plan& now);
     std::optional<Plan> probe_out_of_reach(const Plans& plans, const Plan& now, const Plan& cheapest, double least_ms);
@@ -58,6 +60,7 @@ private:
     std::optional<Plan> wanted_;  // a better decision that is known too little to be chosen
     int since_choice_ = 0;        // decisions since kept_ changed
     Probe probe_;
+    Retest cap_retest_{longest_cap_wait};
 };
 
 }  // namespace sfsm

@@ -142,7 +142,7 @@ void Floor::find(double target_ms) {
 // The times of this level don't follow the work that is predicted for them.
 bool Floor::is_waiting(const Level& level, double target_ms) const {
     const double hidden = hidden_by_refresh(level.ms);
-    if (hidden <= 0 && level.pairs >= many_pairs && level.products < paid_back * level.squares) return true;
+    if (!is_found() && level.pairs >= many_pairs && level.products < paid_back * level.squares) return true;
     const double range = level.highest - level.lowest;
     if (level.ms < harmful * target_ms && level.deviation > exactly) return false;
     if (range <= moved + deviations * level.deviation + hidden) return false;

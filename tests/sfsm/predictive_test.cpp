@@ -359,6 +359,7 @@ struct ForecastLoop {
     int delay = 2;
     double noise = 0.01;
     std::uint64_t seed = 1;
+    double sway = 0;  // [share] of times, to and fro
 };
 
 std::vector<TraceRow> run(Controller& law, const ForecastLoop& loop) {
@@ -368,6 +369,7 @@ std::vector<TraceRow> run(Controller& law, const ForecastLoop& loop) {
         row.decision = law.decide({row.target_ms, test_range, &scene.forecast});
         row.work = scene.work(row.decision);
         row.frame_ms = scene.ms(row.work) * std::exp(loop.noise * normal(random));
+        row.frame_ms *= std::exp(loop.sway * std::sin(2.4 * static_cast<double>(row.frame)));
     });
 }
 
@@ -400,6 +402,21 @@ TEST(PredictiveForecast, ForecastsThatAreOffMeetTheTargetToo) {
         double sum = 0;
         for (std::size_t i = 200; i < rows.size(); ++i) sum += rows[i].frame_ms / 400;
         EXPECT_NEAR(sum, target_ms, 0.015 * target_ms) << drawn;
+    }
+}
+
+// Such times make up for each other, as those of frames that wait for a cap do.
+TEST(PredictiveForecast, TimesThatSwayAreTakenForACapOnlyUntilItIsTested) {
+    for (const double sway : {0.01, 0.015, 0.02}) {
+        for (const double target : {12.0, 14.0, 16.0, 18.0}) {
+            const Scene scene = scene_of(20'000);
+            PredictiveLaw law;
+            const auto rows = run(law, ForecastLoop{[&](std::int64_t) -> const Scene& { return scene; },
+                                                    constant(target), 6000, 2, 0.001, 1, sway});
+            double over = 0;
+            for (const TraceRow& row : rows) over += row.frame_ms > 1.05 * target ? 1.0 / 6000 : 0;
+            EXPECT_LT(over, 0.025) << sway << ", " << target;
+        }
     }
 }
 
