@@ -126,7 +126,8 @@ glm::dvec3 light_on(const glm::dvec3& n) {
 
 struct ExactVertex {
     glm::dvec3 position;  // right, up, forward [m]
-    glm::dvec3 light, albedo;
+    glm::dvec3 light[2];  // from before, and from behind
+    glm::dvec3 albedo;
 };
 
 ExactVertex exact_vertex(const Actor& actor, const render::Person& person, const render::View& view, std::uint32_t v) {
@@ -139,8 +140,7 @@ ExactVertex exact_vertex(const Actor& actor, const render::Person& person, const
     const auto& posed = actor.poses.vertices[std::size_t{person.pose} * actor.poses.vertex_count + v];
     const glm::dvec3 world = glm::dvec3(instance.position) +
                              double{instance.scale} * turned(motion::unpack_position(posed, actor.poses.box));
-    glm::dvec3 normal = turned(motion::unpack_normal(posed));
-    if (mesh.double_sided() && glm::dot(normal, world) > 0) normal = -normal;
+    const glm::dvec3 normal = turned(motion::unpack_normal(posed));
     glm::dvec3 albedo = glm::dvec3(mesh.colors[v]) / 255.0;
     albedo *= albedo;
     if (mesh.slots[v] != model::no_slot) {
@@ -148,14 +148,17 @@ ExactVertex exact_vertex(const Actor& actor, const render::Person& person, const
         albedo *= own * own;
     }
     const glm::dvec3 right = view.right, up = view.up, forward = view.forward;
-    return {{glm::dot(right, world), glm::dot(up, world), glm::dot(forward, world)}, light_on(normal), albedo};
+    return {{glm::dot(right, world), glm::dot(up, world), glm::dot(forward, world)},
+            {light_on(normal), light_on(-normal)},
+            albedo};
 }
 
 // By the ray through each sample: no clipping, no projection, no edges on a grid.
 void cast(const ExactVertex (&v)[3], bool double_sided, const render::View& view, Exact& out) {
     const glm::dvec3 a = v[0].position, b = v[1].position, c = v[2].position;
     const glm::dvec3 normal = glm::cross(b - a, c - a);
-    const bool culled = !double_sided && glm::dot(normal, a) < 0;  // forward points into the picture: left-handed axes
+    const bool is_behind = glm::dot(normal, a) < 0;  // forward points into the picture: left-handed axes
+    const bool culled = !double_sided && is_behind;
     for (int y = 0; y < out.height; ++y) {
         for (int x = 0; x < out.width; ++x) {
             const glm::dvec3 ray((2 * (x + 0.5) / out.width - 1) * view.tan_half_x,
@@ -190,7 +193,7 @@ void cast(const ExactVertex (&v)[3], bool double_sided, const render::View& view
             if (std::abs(key - sample.depth) < close * key) sample.certain = false;
             if (key <= sample.depth) continue;
             sample.depth = key;
-            sample.color = (w.x * v[0].light + w.y * v[1].light + w.z * v[2].light) *
+            sample.color = (w.x * v[0].light[is_behind] + w.y * v[1].light[is_behind] + w.z * v[2].light[is_behind]) *
                            (w.x * v[0].albedo + w.y * v[1].albedo + w.z * v[2].albedo);
         }
     }
