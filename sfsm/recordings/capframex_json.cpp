@@ -27,7 +27,55 @@ constexpr std::array<std::pair<std::string_view, Array>, 6> array_names = {{{"Ms
                                                                             {"MsGPUBusy", gpu}}};
 using Run = std::array<std::vector<double>, 4>;
 
-// A file's bytes as the parser takes them.
+// A file's bytes, with null for numbers that JSON hasn't but files have: NaN, Infinity, -Infinity.
+class Source {
+public:
+    explicit Source(LineReader& lines) : lines_(lines) {}
+
+    // Nothing is taken before the parser asks for it, or errors would name the line of the byte behind.
+    int peek() {
+        if (at_ == null_.size() && !is_in_text_) begin_null();
+        return at_ < null_.size() ? null_[at_] : lines_.peek_byte();
+    }
+    void next() {
+        if (at_ < null_.size()) {
+            ++at_;
+            return;
+        }
+        const int byte = lines_.next_byte();
+        if (is_escaped_) {
+            is_escaped_ = false;
+        } else if (byte == '"') {
+            is_in_text_ = !is_in_text_;
+        } else {
+            is_escaped_ = is_in_text_ && byte == '\\';
+        }
+    }
+
+private:
+    // A minus sign waits for what follows it.
+    void begin_null() {
+        const bool is_minus = lines_.peek_byte() == '-';
+        if (is_minus) lines_.next_byte();
+        const int byte = lines_.peek_byte();
+        const std::string_view word = byte == 'N' ? "NaN" : byte == 'I' ? "Infinity" : "";
+        std::size_t length = 0;
+        while (length < word.size() && lines_.peek_byte() == word[length]) {
+            lines_.next_byte();
+            ++length;
+        }
+        const bool is_whole = !word.empty() && length == word.size();
+        null_ = is_whole ? "null" : length > 0 ? "?" : is_minus ? "-" : "";
+        at_ = 0;
+    }
+
+    LineReader& lines_;
+    std::string_view null_;  // what is read in place of the file's bytes, from at_ on
+    std::size_t at_ = 0;
+    bool is_in_text_ = false, is_escaped_ = false;
+};
+
+// The same as the parser takes them.
 class Bytes {
 public:
     using iterator_category = std::input_iterator_tag;
@@ -37,21 +85,20 @@ public:
     using reference = char;
 
     Bytes() = default;  // the end
-    explicit Bytes(LineReader& lines) : lines_(&lines) {}
+    explicit Bytes(Source& source) : source_(&source) {}
 
-    char operator*() const { return static_cast<char>(lines_->peek_byte()); }
+    char operator*() const { return static_cast<char>(source_->peek()); }
     Bytes& operator++() {
-        lines_->next_byte();
+        source_->next();
         return *this;
     }
     bool operator==(const Bytes& other) const { return is_end() == other.is_end(); }
     bool operator!=(const Bytes& other) const { return !(*this == other); }
 
 private:
-    // Nothing is taken before the parser asks for it, or errors would name the line of the byte behind.
-    bool is_end() const { return !lines_ || lines_->peek_byte() < 0; }
+    bool is_end() const { return !source_ || source_->peek() < 0; }
 
-    LineReader* lines_ = nullptr;
+    Source* source_ = nullptr;
 };
 
 // Takes the parser's events. Knows where it is by the keys that lead there, one of each open object or array; an
@@ -137,10 +184,11 @@ bool Events::boolean(bool value) {
     return take(value ? 1 : 0);
 }
 
-// CapFrameX writes a NaN in quotes.
+// CapFrameX writes what is no finite number in quotes.
 bool Events::string(string_t& value) {
     if (is_value()) {
-        if (value != "NaN") lines_.fail("found " + shown(value) + " in " + shown(path_[3]) + ", expected a number");
+        if (value != "NaN" && value != "Infinity" && value != "-Infinity")
+            lines_.fail("found " + shown(value) + " in " + shown(path_[3]) + ", expected a number");
         return take(std::numeric_limits<double>::quiet_NaN());
     }
     if (path_.size() == 2 && path_[0] == "Info") info[path_[1]] = value;
@@ -161,6 +209,7 @@ StreamFrames to_stream(const Run& run, const LineReader& lines) {
     stream.frames.reserve(run[presents].size());
     for (std::size_t i = 0; i < run[presents].size(); ++i) {
         const std::int64_t entry = static_cast<std::int64_t>(i) + 1;
+        if (is_shown_again(stream, run[presents][i], entry)) continue;
         if (part(run, dropped, i) == 1) stream.unshown.add(entry);
         const FrameTimes told{run[presents][i], part(run, cpu, i), part(run, gpu, i)};
         add_frame(stream, usable_times(told, stream, entry), 0);
@@ -172,7 +221,8 @@ StreamFrames to_stream(const Run& run, const LineReader& lines) {
 
 Collected read_capframex_json(LineReader& lines) {
     Events events(lines);
-    nlohmann::json::sax_parse(Bytes(lines), Bytes(), &events);
+    Source source(lines);
+    nlohmann::json::sax_parse(Bytes(source), Bytes(), &events);
     Collected collected;
     collected.format = "CapFrameX JSON";
     collected.settings = events.info;

@@ -1,6 +1,8 @@
 #include "sfsm/recordings/csv_recording.h"
 
 #include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -15,21 +17,45 @@
 namespace sfsm {
 namespace {
 
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t longest_preamble = 200;        // lines
 constexpr std::size_t longest_preamble_line = 4096;  // what is kept of it [bytes]
 
+// What a C library writes where there is no number: "-1.#IND", "1.#QNAN", "-nan(ind)" ...
+bool is_no_number(std::string_view text) {
+    if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
+    return text.starts_with("1.#") || text.starts_with("1,#") || same_name(text.substr(0, 4), "nan(");
+}
+
 bool is_not_available(std::string_view text) {
-    return same_name(text, "NA") || same_name(text, "N/A") || same_name(text, "-nan(ind)");
+    return same_name(text, "NA") || same_name(text, "N/A") || same_name(text, "null") || is_no_number(text);
 }
 
 // NaN: not available; nothing: no number. A decimal comma is as good as a point.
 std::optional<double> told_number(std::string_view text) {
     if (const std::optional<double> value = parse_double(text)) return value;
-    if (is_not_available(text)) return std::numeric_limits<double>::quiet_NaN();
+    if (text.empty() || is_not_available(text)) return unknown;
+    if (text.starts_with('+')) return parse_double(text.substr(1));
     if (std::count(text.begin(), text.end(), ',') != 1) return std::nullopt;
     std::string with_point(text);
     std::replace(with_point.begin(), with_point.end(), ',', '.');
     return parse_double(with_point);
+}
+
+// Who made a frame. Names that we don't know are no reason to think that nobody rendered it.
+enum class Maker { application, generator, repetition, somebody };
+
+Maker maker_of(std::string_view type) {
+    if (type.empty() || same_name(type, "Application") || is_not_available(type)) return Maker::application;
+    if (same_name(type, "Repeated")) return Maker::repetition;
+    std::string lower(type);
+    std::transform(lower.begin(), lower.end(), lower.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    for (const char* generator :
+         {"xess", "xefg", "xell", "afmf", "fsr", "dlss", "smooth", "generated", "interpolated"}) {
+        if (lower.find(generator) != std::string::npos) return Maker::generator;
+    }
+    return Maker::somebody;
 }
 
 bool is_comment(std::string_view line) {
@@ -52,19 +78,24 @@ private:
     void keep_preamble(std::string_view line);
     void begin_table(const Header& header, std::string_view line);
     void read_preamble();
+    void note_preamble(const Format& format);
     void take_line(std::string_view line);
     bool begins_again(std::string_view line);
-    void take_row();
+    std::string fault(RowSplitter::Result result) const;
+    void leave_out(std::string fault);
+    void take_row(double told);
     void take_present(double told_ms);
-    void take_sample(double told_ms);
-    void take_clock(double clock_ms);
+    bool is_no_frame(StreamFrames& stream, double told_ms);
+    void take_fate(StreamFrames& stream);
+    void take_raw(double told);
+    void finish_raw();
+    void check_unreadable() const;
+    void forget_untracked_displays();
     void append_notes();
 
     double number(Column column) const;
-    double optional_number(Column column) const;
-    bool is_unshown() const;
+    double part(Column column, StreamFrames& stream) const;
     std::size_t present() const;
-    [[noreturn]] void fail_field(Column column, const char* expected) const;
     [[noreturn]] void fail_without_header() const;
 
     LineReader& lines_;
@@ -74,9 +105,11 @@ private:
     std::optional<Header> header_;
     std::optional<RowSplitter> row_;
     bool is_seeking_ = true;
+    bool is_first_ = true;  // row behind a header
     std::int64_t rows_ = 0;
-    std::optional<double> clock_ms_;  // of the row before, of Rows::clock
-    Tally repeated_headers_;
+    Tally unreadable_, repeated_headers_, before_header_;
+    std::string first_fault_, first_before_header_;
+    bool has_display_times_ = false;
 
     StreamTable table_;
     Collected collected_;
@@ -93,9 +126,12 @@ Collected CsvReader::read() {
         }
     }
     if (is_seeking_) fail_without_header();
+    check_unreadable();
     if (rows_ == 0) {
         lines_.fail("found no row behind the header of " + collected_.format + ", expected at least one");
     }
+    finish_raw();
+    forget_untracked_displays();
     append_notes();
     collected_.streams = std::move(table_.streams());
     return std::move(collected_);
@@ -128,10 +164,11 @@ void CsvReader::begin_table(const Header& header, std::string_view line) {
     } else {
         collected_.format = header.format->name;
         read_preamble();
+        note_preamble(*header.format);
     }
     header_ = header;
     row_.emplace(*header_);
-    clock_ms_.reset();
+    is_first_ = true;
     preamble_.clear();
     is_seeking_ = false;
 }
@@ -153,21 +190,58 @@ void CsvReader::read_preamble() {
     }
 }
 
+// What a recorder said on the console, say.
+void CsvReader::note_preamble(const Format& format) {
+    if (format.rows == Rows::samples || preamble_.empty() || is_comment(suspect_text_)) return;
+    first_before_header_ = shown(suspect_text_);
+    before_header_.first = suspect_;
+    before_header_.count =
+        std::count_if(preamble_.begin(), preamble_.end(), [](const std::string& line) { return !is_comment(line); });
+}
+
 void CsvReader::take_line(std::string_view line) {
-    const RowSplitter::Result result = row_->split(line);
-    const bool is_row = result == RowSplitter::Result::good && told_number(row_->text(Column::frame_time));
-    if (!is_row && begins_again(line)) return;
-    const bool is_cut = !lines_.has_line_end() && (result == RowSplitter::Result::too_short || !row_->is_closed());
-    if (is_cut) return collected_.notes.push_back(cut_line_note(lines_));
-    if (result == RowSplitter::Result::too_short) {
-        lines_.fail("found " + std::to_string(row_->fields()) + " fields, expected " + std::to_string(row_->needed()) +
-                    " or more");
+    using Result = RowSplitter::Result;
+    const Result result = row_->split(line);
+    std::optional<double> told;
+    if (result == Result::good) told = told_number(row_->text(Column::frame_time));
+    if (told) {
+        const bool is_cut = !lines_.has_line_end() && !row_->is_closed();
+        return is_cut ? collected_.notes.push_back(cut_line_note(lines_)) : take_row(*told);
     }
-    if (result == RowSplitter::Result::too_long) {
-        lines_.fail("found " + std::to_string(row_->fields()) + " fields, expected " + std::to_string(header_->fields) +
-                    " at most: is a decimal comma taken for a separator?");
+    if (begins_again(line)) return;
+    if (!lines_.has_line_end() && (result == Result::too_short || !row_->is_closed())) {
+        return collected_.notes.push_back(cut_line_note(lines_));
     }
-    take_row();
+    leave_out(fault(result));
+}
+
+// What was found and what was expected, of a row that can't be read.
+std::string CsvReader::fault(RowSplitter::Result result) const {
+    const std::string fields = "found " + std::to_string(row_->fields()) + " fields, expected ";
+    switch (result) {
+        case RowSplitter::Result::too_short:
+            return fields + std::to_string(row_->needed()) + " or more";
+        case RowSplitter::Result::too_long:
+            return fields + std::to_string(header_->fields) + " at most: is a decimal comma taken for a separator?";
+        case RowSplitter::Result::good:
+            break;
+    }
+    return header_->name(Column::frame_time) + " is " + shown(row_->text(Column::frame_time)) +
+           ", expected a number or NA";
+}
+
+void CsvReader::leave_out(std::string fault) {
+    if (unreadable_.count == 0) first_fault_ = std::move(fault);
+    unreadable_.add(lines_.number());
+}
+
+// Noise between rows is left out; a file that is mostly noise is none of ours.
+void CsvReader::check_unreadable() const {
+    constexpr std::int64_t always_passed = 10, one_in = 100;
+    const std::int64_t count = unreadable_.count;
+    if (count == 0 || (count < rows_ && count <= std::max(always_passed, (rows_ + count) / one_in))) return;
+    const std::string others = count == 1 ? "" : " (and " + std::to_string(count - 1) + " rows more)";
+    lines_.fail_at(unreadable_.first, first_fault_ + others);
 }
 
 // What files put together have between their rows: a header, with what may stand before it.
@@ -183,83 +257,127 @@ bool CsvReader::begins_again(std::string_view line) {
     return header.has_value();
 }
 
-void CsvReader::take_row() {
+void CsvReader::take_row(double told) {
     ++rows_;
-    const double told = number(Column::frame_time);
-    switch (header_->format->rows) {
-        case Rows::presents:
-            return take_present(told);
-        case Rows::samples:
-            return take_sample(told);
-        case Rows::clock:
-            return take_clock(told);
+    if (header_->format->rows == Rows::presents) {
+        take_present(told);
+    } else {
+        take_raw(told);
     }
+    is_first_ = false;
 }
 
 void CsvReader::take_present(double told_ms) {
     StreamFrames& stream =
         table_.find(row_->text(Column::process), row_->text(Column::process_id), row_->text(Column::swap_chain));
-    const std::string_view type = row_->text(Column::frame_type);
-    if (!type.empty() && !is_not_available(type) && !same_name(type, "Application")) {
-        if (stream.generated.rows.count == 0) stream.generated.type = shown(type);
-        stream.generated.rows.add(lines_.number());
-        add_generated(stream, told_ms, present());
-        return;
+    FrameTimes told{told_ms, part(Column::cpu, stream), part(Column::gpu, stream)};
+    if (header_->has(Column::frame_rest)) {
+        told.cpu_ms = told_ms;
+        told.frame_ms += number(Column::frame_rest);
     }
-    const FrameTimes told{told_ms, optional_number(Column::cpu), optional_number(Column::gpu)};
-    if (is_unshown()) stream.unshown.add(lines_.number());
+    stream.span.extend(lines_.number(), row_->text(Column::present_time));
+    if (is_no_frame(stream, told.frame_ms)) return;
+    take_fate(stream);
     add_frame(stream, usable_times(told, stream, lines_.number()), present());
 }
 
-void CsvReader::take_sample(double told_ms) {
-    StreamFrames& stream = table_.find("", "", "");
-    stream.frames.push_back(usable_times({in_milliseconds(told_ms, number(Column::fps))}, stream, lines_.number()));
-    if (header_->has(Column::elapsed)) stream.elapsed.push_back(number(Column::elapsed));
+// Whether the row only shows what another generated, or what was rendered before.
+bool CsvReader::is_no_frame(StreamFrames& stream, double told_ms) {
+    const std::string_view type = row_->text(Column::frame_type);
+    const Maker maker = maker_of(type);
+    const bool is_repeated = maker == Maker::repetition && present() != 0 && present() == stream.generated.present;
+    if (maker == Maker::generator || is_repeated) {
+        if (stream.generated.rows.count == 0) stream.generated.type = shown(type);
+        stream.generated.rows.add(lines_.number());
+        add_generated(stream, told_ms, present());
+        return true;
+    }
+    if (maker == Maker::somebody || maker == Maker::repetition) {
+        if (stream.other_types.count == 0) stream.other_type = shown(type);
+        stream.other_types.add(lines_.number());
+    }
+    return !same_name(type, "Application") && is_shown_again(stream, told_ms, lines_.number());
 }
 
-void CsvReader::take_clock(double clock_ms) {
+// Whether the frame was ever shown.
+void CsvReader::take_fate(StreamFrames& stream) {
+    const std::string_view dropped = row_->text(Column::dropped);
+    if (dropped == "0") return;
+    if (header_->has(Column::dropped)) {
+        if (dropped == "1" || same_name(dropped, "true")) {
+            stream.unshown.add(lines_.number());
+        } else if (!dropped.empty() && !same_name(dropped, "false") && !is_not_available(dropped)) {
+            stream.unknown_fate.add(lines_.number());
+        }
+        return;
+    }
+    const std::string_view displayed = row_->text(Column::displayed);
+    if (displayed.empty()) return;
+    const std::optional<double> time = told_number(displayed);
+    has_display_times_ = has_display_times_ || (time && *time > 0);
+    if (!time) return stream.unknown_fate.add(lines_.number());
+    if (std::isnan(*time) || *time == 0) stream.unshown.add(lines_.number());
+}
+
+// A row that means nothing before all are known.
+void CsvReader::take_raw(double told) {
     StreamFrames& stream = table_.find("", "", "");
-    if (clock_ms_) add_frame(stream, usable_times({clock_ms - *clock_ms_}, stream, lines_.number()), 0);
-    clock_ms_ = clock_ms;
+    stream.raw.push_back({told, number(Column::fps), number(Column::elapsed), lines_.number(), is_first_});
+}
+
+void CsvReader::finish_raw() {
+    for (StreamFrames& stream : table_.streams()) {
+        if (header_->format->rows == Rows::samples) take_mangohud_rows(stream, lines_.name());
+        if (header_->format->rows == Rows::clock) take_raw_times(stream, {Unit::ms, ColumnMeaning::Sense::clock});
+    }
+}
+
+// Where no row has a display's time, it wasn't recorded.
+void CsvReader::forget_untracked_displays() {
+    if (header_->has(Column::dropped) || has_display_times_) return;
+    bool is_forgotten = false;
+    for (StreamFrames& stream : table_.streams()) {
+        is_forgotten = is_forgotten || stream.unshown.count > 0;
+        stream.unshown = {};
+    }
+    if (!is_forgotten) return;
+    collected_.notes.push_back(header_->name(Column::displayed) +
+                               " is told in no row: what was shown was not recorded, nothing is taken for dropped");
 }
 
 void CsvReader::append_notes() {
+    std::vector<std::string>& notes = collected_.notes;
+    if (before_header_.count > 0) {
+        notes.push_back(counted(before_header_.count, "line", "lines") + " before the header, from line " +
+                        std::to_string(before_header_.first) + ", " + first_before_header_ + ": left out");
+    }
+    if (unreadable_.count > 0) {
+        notes.push_back(counted(unreadable_.count, "row", "rows") + " that can't be read, the first in line " +
+                        std::to_string(unreadable_.first) + ": " + first_fault_ + ": left out");
+    }
     if (repeated_headers_.count == 0) return;
-    collected_.notes.push_back(
+    notes.push_back(
         "header found again in line " + std::to_string(repeated_headers_.first) +
         (repeated_headers_.count == 1 ? "" : " and " + std::to_string(repeated_headers_.count - 1) + " more") +
         ": recordings put together");
 }
 
+// NaN: not told, or no number.
 double CsvReader::number(Column column) const {
-    if (const std::optional<double> value = told_number(row_->text(column))) return *value;
-    fail_field(column, "a number or NA");
+    return told_number(row_->text(column)).value_or(unknown);
 }
 
-// NaN where there is no such column or an empty field.
-double CsvReader::optional_number(Column column) const {
-    return row_->text(column).empty() ? std::numeric_limits<double>::quiet_NaN() : number(column);
+double CsvReader::part(Column column, StreamFrames& stream) const {
+    const std::optional<double> told = told_number(row_->text(column));
+    if (!told) stream.unusable_parts.add(lines_.number());
+    return told.value_or(unknown);
 }
 
-bool CsvReader::is_unshown() const {
-    const std::string_view dropped = row_->text(Column::dropped);
-    if (dropped == "0" || dropped == "1") return dropped == "1";
-    if (header_->has(Column::dropped)) {
-        if (same_name(dropped, "true") || same_name(dropped, "false")) return same_name(dropped, "true");
-        if (dropped.empty() || is_not_available(dropped)) return false;
-        fail_field(Column::dropped, "0 or 1");
-    }
-    const std::string_view displayed = row_->text(Column::displayed);
-    return !displayed.empty() && (is_not_available(displayed) || number(Column::displayed) == 0);
-}
-
+// Tells presents apart; 0: nothing says.
 std::size_t CsvReader::present() const {
+    if (!header_->has(Column::frame_type)) return 0;
     const std::string_view text = row_->text(Column::present_time);
     return text.empty() || is_not_available(text) ? 0 : std::hash<std::string_view>()(text) | 1;
-}
-
-void CsvReader::fail_field(Column column, const char* expected) const {
-    lines_.fail(header_->name(column) + " is " + shown(row_->text(column)) + ", expected " + expected);
 }
 
 void CsvReader::fail_without_header() const {

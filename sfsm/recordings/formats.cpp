@@ -21,6 +21,9 @@ const std::vector<Format>& formats() {
          {"PresentRuntime", "MsCPUBusy", "MsGPUBusy", "MsBetweenAppStart", "FrameType"}},
         {"PresentMon 1.x", Rows::presents, "MsBetweenPresents", {}},
         {"PresentMon 2.x", Rows::presents, "FrameTime", {"CPUBusy", "GPUBusy", "DisplayedTime", "Application"}},
+        {"PresentMon 2.0", Rows::presents, "CPUBusy", {}, false, "CPUWait"},
+        {"PresentMon 2.0", Rows::presents, "CPUDuration", {}, false, "CPUFramePacingStall"},
+        {"PresentMon 2.0", Rows::presents, "MsCPUBusy", {}, false, "MsCPUWait"},
         {"MangoHud", Rows::samples, "frametime", {"fps"}},
         {"FRAPS", Rows::clock, "Time (ms)", {"Frame"}},
     };
@@ -58,6 +61,7 @@ bool contains(const std::vector<std::string>& fields, std::string_view name) {
 bool fits(const Format& format, const std::vector<std::string>& fields, bool after_preamble) {
     if (format.has_preamble && !after_preamble) return false;
     if (!contains(fields, format.frame_time)) return false;
+    if (!format.frame_rest.empty() && !contains(fields, format.frame_rest)) return false;
     return format.marks.empty() || std::any_of(format.marks.begin(), format.marks.end(),
                                                [&](std::string_view mark) { return contains(fields, mark); });
 }
@@ -65,7 +69,7 @@ bool fits(const Format& format, const std::vector<std::string>& fields, bool aft
 void place_column(Header& header, Column column, std::string_view name, const std::vector<std::string>& fields,
                   const LineReader& place) {
     const std::size_t index = static_cast<std::size_t>(column);
-    for (std::size_t i = 0; i < fields.size(); ++i) {
+    for (std::size_t i = 0; i < fields.size() && !name.empty(); ++i) {
         if (!same_name(fields[i], name)) continue;
         if (header.position[index]) {
             place.fail("found two columns '" + std::string(name) + "', expected one");
@@ -83,13 +87,14 @@ Header place_columns(const Format& format, char separator, const std::vector<std
                      const LineReader& place) {
     Header header{&format, separator, fields.size(), {}, {}};
     place_column(header, Column::frame_time, format.frame_time, fields, place);
+    place_column(header, Column::frame_rest, format.frame_rest, fields, place);
     for (const Names& other : other_columns()) {
         for (const std::string_view name : other.names) {
             if (!header.has(other.column)) place_column(header, other.column, name, fields, place);
         }
     }
     if (header.has(Column::dropped)) drop(header, Column::displayed);
-    if (!header.has(Column::frame_type)) drop(header, Column::present_time);
+    if (header.has(Column::frame_rest)) drop(header, Column::cpu);  // it is the frame time's first part
     return header;
 }
 
@@ -107,7 +112,11 @@ std::optional<Header> find_header(std::string_view line, bool after_preamble, co
 
 std::string readable_formats() {
     std::string names = "one of our own traces";
-    for (const Format& format : formats()) names += ", " + std::string(format.name);
+    std::string_view before;
+    for (const Format& format : formats()) {
+        if (format.name != before) names += ", " + std::string(format.name);
+        before = format.name;
+    }
     return names + " or CapFrameX JSON";
 }
 

@@ -15,19 +15,20 @@ class LineReader;
 // What we read of a row.
 enum class Column {
     frame_time,  // [ms]; of Rows::clock the time since the recording began
+    frame_rest,  // [ms] to be added to it: where a tool writes two parts
     process,
     process_id,
     swap_chain,
     cpu,  // [ms]
     gpu,
-    dropped,       // 1: never shown
+    dropped,       // 0: shown, 1: never shown; anything else: unknown
     displayed,     // [ms] some time until or on display; 0 or NA: never shown. Read where there is no `dropped`
     frame_type,    // "Application", or who made the frame
-    present_time,  // any text that differs from present to present. Read where there is a `frame_type`
+    present_time,  // any text that differs from present to present
     fps,
     elapsed,  // [ns]
 };
-inline constexpr std::size_t column_count = 12;
+inline constexpr std::size_t column_count = 13;
 
 enum class Rows {
     presents,  // one a present
@@ -41,6 +42,7 @@ struct Format {
     std::string_view frame_time;          // the column that it must have
     std::vector<std::string_view> marks;  // and one of these, if there are any
     bool has_preamble = false;            // and lines "//Key=Value" before the header
+    std::string_view frame_rest = {};     // a second column that it must have
 };
 
 // Where the columns of one file stand.

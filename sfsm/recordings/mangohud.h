@@ -5,12 +5,11 @@
 
 namespace sfsm {
 
-// A row's frametime [ms]. Older versions write it in whole microseconds, and then fps is its inverse.
-double in_milliseconds(double frametime, double fps);
-
-// If the rows' elapsed times say that they are samples: each becomes as many frames as fit in the time since the one
-// before, and a rest is carried on. A sample stands for 1000 frames at most: what is longer was a pause. Else nothing
-// changes. Throws std::runtime_error, beginning with `name`, if they would be more than 20 million frames.
-void spread_samples(StreamFrames& stream, const std::string& name);
+// The raw rows become frames. Their unit is the one in which most frame times are the inverse of the fps beside them:
+// milliseconds, or, of older versions, microseconds. If their elapsed times say that they are samples, each becomes as
+// many frames as fit in the time since the one before; a rest is carried on, and the first only begins the clock. A gap
+// of over ten usual ones is a pause, and stands for a usual one. Throws std::runtime_error, beginning with `name`, if
+// samples stand for more than 20 million frames.
+void take_mangohud_rows(StreamFrames& stream, const std::string& name);
 
 }  // namespace sfsm

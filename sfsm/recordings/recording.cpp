@@ -9,8 +9,8 @@
 #include "sfsm/recordings/capframex_json.h"
 #include "sfsm/recordings/csv_recording.h"
 #include "sfsm/recordings/formats.h"
-#include "sfsm/recordings/mangohud.h"
 #include "sfsm/recordings/row_splitter.h"
+#include "sfsm/recordings/swap_chains.h"
 #include "sfsm/text.h"
 
 namespace sfsm {
@@ -63,8 +63,9 @@ Recording our_recording(LineReader& lines) {
 }
 
 Stream summed_up(const StreamFrames& stream) {
-    return {stream.process, stream.process_id, stream.swap_chain, static_cast<std::int64_t>(stream.frames.size()),
-            stream.seconds()};
+    return {stream.process,           stream.process_id,
+            stream.swap_chain,        static_cast<std::int64_t>(stream.frames.size()),
+            stream.generated.count(), stream.seconds()};
 }
 
 // As PresentMon and its kin call it; empty: nothing to call it by.
@@ -88,15 +89,45 @@ std::string called(const Stream& stream) {
     throw std::runtime_error(message + (more > 0 ? "; and " + std::to_string(more) + " more" : ""));
 }
 
-std::size_t choose(const Recording& recording, const std::string& name, const std::string& wanted) {
-    if (wanted.empty()) return 0;
-    const auto is_wanted = [&](const Stream& stream) {
-        return same_name(stream.process, wanted) || same_name(stream.process_id, wanted) ||
-               same_name(stream.swap_chain, wanted);
+std::string_view without_exe(std::string_view process) {
+    constexpr std::string_view exe = ".exe";
+    const bool has_exe = process.size() > exe.size() && same_name(process.substr(process.size() - exe.size()), exe);
+    return has_exe ? process.substr(0, process.size() - exe.size()) : process;
+}
+
+// It presents for all, but it is no game.
+bool is_compositor(const Stream& stream) {
+    return same_name(without_exe(stream.process), "dwm");
+}
+
+bool is_process(const Stream& stream, const std::string& wanted) {
+    return same_name(without_exe(stream.process), without_exe(wanted)) || same_name(stream.process_id, wanted);
+}
+
+bool is_wanted(const Stream& stream, const RecordingOptions& options) {
+    if (!options.swap_chain.empty() && !is_same_chain(stream.swap_chain, options.swap_chain)) return false;
+    if (options.process.empty()) return !options.swap_chain.empty() || !is_compositor(stream);
+    return is_process(stream, options.process) || is_same_chain(stream.swap_chain, options.process);
+}
+
+std::size_t choose(const Recording& recording, const std::string& name, const RecordingOptions& options) {
+    const auto found = std::find_if(recording.streams.begin(), recording.streams.end(),
+                                    [&](const Stream& stream) { return is_wanted(stream, options); });
+    if (found != recording.streams.end()) return static_cast<std::size_t>(found - recording.streams.begin());
+    if (options.process.empty() && options.swap_chain.empty()) return 0;
+    fail_without_match(recording, name, options.swap_chain.empty() ? options.process : options.swap_chain);
+}
+
+// Who asks for a swap chain gets it alone.
+bool asks_for_chain(const std::vector<StreamFrames>& streams, const RecordingOptions& options) {
+    if (!options.swap_chain.empty()) return true;
+    if (options.process.empty()) return false;
+    const auto is_named = [&](const StreamFrames& stream) { return is_process(summed_up(stream), options.process); };
+    const auto has_chain = [&](const StreamFrames& stream) {
+        return is_same_chain(stream.swap_chain, options.process);
     };
-    const auto found = std::find_if(recording.streams.begin(), recording.streams.end(), is_wanted);
-    if (found == recording.streams.end()) fail_without_match(recording, name, wanted);
-    return static_cast<std::size_t>(found - recording.streams.begin());
+    return std::none_of(streams.begin(), streams.end(), is_named) &&
+           std::any_of(streams.begin(), streams.end(), has_chain);
 }
 
 std::vector<TraceRow> to_rows(const std::vector<FrameTimes>& frames) {
@@ -114,19 +145,18 @@ std::vector<TraceRow> to_rows(const std::vector<FrameTimes>& frames) {
 // Of what a tool has recorded: the chosen stream as a trace.
 Recording to_recording(Collected collected, const std::string& name, const RecordingOptions& options) {
     std::vector<StreamFrames>& streams = collected.streams;
-    for (StreamFrames& stream : streams) {
-        spread_samples(stream, name);
-        merge_generated_presents(stream);
-    }
+    if (!asks_for_chain(streams, options)) join_swap_chains(streams);
     std::stable_sort(streams.begin(), streams.end(),
                      [](const StreamFrames& a, const StreamFrames& b) { return a.frames.size() > b.frames.size(); });
     Recording recording;
     recording.format = collected.format;
     for (const StreamFrames& stream : streams) recording.streams.push_back(summed_up(stream));
-    recording.chosen = choose(recording, name, options.process);
+    recording.chosen = choose(recording, name, options);
     const StreamFrames& chosen = streams[recording.chosen];
     if (chosen.frames.empty()) {
-        throw std::runtime_error(name + ": found no frame of " + recording.format + ", expected at least one");
+        const std::string type = chosen.generated.type;
+        throw std::runtime_error(name + ": found no frame of " + recording.format +
+                                 (type.empty() ? "" : " but those of FrameType " + type) + ", expected at least one");
     }
     recording.trace.name = name;
     recording.trace.rows = to_rows(chosen.frames);
@@ -147,7 +177,7 @@ Recording read_recording(std::istream& in, const std::string& name, const Record
     refuse_other_bytes(lines);
     if (is_our_trace(lines.head())) {
         Recording recording = our_recording(lines);
-        recording.chosen = choose(recording, name, options.process);
+        recording.chosen = choose(recording, name, options);
         return recording;
     }
     return to_recording(is_json(lines.head()) ? read_capframex_json(lines) : read_csv_recording(lines), name, options);

@@ -12,11 +12,13 @@
 
 namespace sfsm {
 
-// What one swap chain of one process presented; of CapFrameX JSON with several runs one run, as swap chain "run 1" ...
+// What one process presented, through one swap chain or several made one after the other; of CapFrameX JSON with
+// several runs one run, as swap chain "run 1" ...
 struct Stream {
-    std::string process, process_id, swap_chain;  // empty where the tool doesn't say
+    std::string process, process_id, swap_chain;  // empty where the tool doesn't say; joined chains with blanks between
     std::int64_t frames = 0;
-    double seconds = 0;  // sum of the frame times
+    std::int64_t generated = 0;  // presents besides, that the application did not render
+    double seconds = 0;          // sum of the frame times
 };
 
 struct Recording {
@@ -35,9 +37,12 @@ struct Recording {
 };
 
 struct RecordingOptions {
-    // Which stream: a process name (whole, any case), a process id or a swap chain, as the file has it; of several that
-    // match the one with most frames. Empty: of all.
-    std::string process;
+    // Which stream: a process name (any case, with ".exe" or without), a process id or a swap chain; of several that
+    // match the one with most frames. Empty: of all but the desktop's compositor, if there are others.
+    std::string process = {};
+
+    // One swap chain alone, not joined with those before and after it. Empty: as `process` says.
+    std::string swap_chain = {};
 };
 
 // Reads in pieces: memory grows with the frames, not with the bytes. Columns are found by name. Throws

@@ -9,10 +9,6 @@ namespace {
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double longest_ms = 600'000;
 
-std::string counted(std::int64_t count, const char* one, const char* several) {
-    return std::to_string(count) + ' ' + (count == 1 ? one : several);
-}
-
 std::string first_in(const Tally& tally, std::string_view place) {
     return (tally.count == 1 ? " (in " : " (the first in ") + std::string(place) + ' ' + std::to_string(tally.first) +
            ')';
@@ -24,35 +20,39 @@ double part(double told, StreamFrames& stream, std::int64_t place) {
     return unknown;
 }
 
-// Whether a frame is far shorter than `neighbour`; never beside a NaN.
-bool is_far_shorter(double ms, double neighbour) {
-    return ms < neighbour / 10;
+// What was shown, beside what was rendered.
+std::string rates(const StreamFrames& stream) {
+    const double seconds = stream.seconds();
+    const auto frames = static_cast<std::int64_t>(stream.frames.size()), presents = frames + stream.generated.count();
+    std::string text = std::to_string(presents) + " presented, " + std::to_string(frames) + " rendered";
+    const auto a_second = [&](std::int64_t count) {
+        return std::to_string(std::llround(static_cast<double>(count) / seconds));
+    };
+    return seconds > 0 ? text + ": " + a_second(presents) + " and " + a_second(frames) + " a second" : text;
 }
 
-// How many presents from `i` on are far shorter than the one before them and the one behind: 0 to 3.
-std::size_t short_run(const std::vector<FrameTimes>& frames, std::size_t i) {
-    constexpr std::size_t longest = 3;
-    const double before = frames[i - 1].frame_ms;
-    std::size_t end = i;
-    while (end < frames.size() && end - i <= longest && is_far_shorter(frames[end].frame_ms, before)) ++end;
-    if (end - i > longest) return 0;
-    for (std::size_t k = i; end < frames.size() && k < end; ++k) {
-        if (!is_far_shorter(frames[k].frame_ms, frames[end].frame_ms)) return 0;
+void append_generated_notes(std::vector<std::string>& notes, const StreamFrames& stream, std::string_view place) {
+    const GeneratedFrames& generated = stream.generated;
+    if (generated.rows.count > 0) {
+        notes.push_back(counted(generated.rows.count, "row", "rows") + " of generated frames, " + generated.type +
+                        first_in(generated.rows, place) + ": left out, their time is in the application's next");
     }
-    return end - i;
-}
-
-std::size_t count_short(const std::vector<FrameTimes>& frames) {
-    std::size_t count = 0;
-    for (std::size_t i = 1; i < frames.size(); ++i) {
-        const std::size_t run = short_run(frames, i);
-        count += run;
-        i += run;
+    if (generated.of_zero.count > 0) {
+        notes.push_back(counted(generated.of_zero.count, "present", "presents") + " of 0 ms" +
+                        first_in(generated.of_zero, place) + ": taken for generated frames, left out");
     }
-    return count;
+    if (generated.count() > 0) notes.push_back(rates(stream));
+    if (stream.other_types.count > 0) {
+        notes.push_back(counted(stream.other_types.count, "row", "rows") + " of FrameType " + stream.other_type +
+                        first_in(stream.other_types, place) + ": taken for the application's");
+    }
 }
 
 }  // namespace
+
+std::string counted(std::int64_t count, const char* one, const char* several) {
+    return std::to_string(count) + ' ' + (count == 1 ? one : several);
+}
 
 double StreamFrames::seconds() const {
     double ms = 0;
@@ -90,21 +90,10 @@ FrameTimes usable_times(FrameTimes told, StreamFrames& stream, std::int64_t plac
     return told;
 }
 
-void merge_generated_presents(StreamFrames& stream) {
-    constexpr std::size_t least_share = 10;  // one in so many
-    std::vector<FrameTimes>& frames = stream.frames;
-    const std::size_t count = count_short(frames);
-    if (count == 0 || count * least_share < frames.size()) return;
-    std::size_t kept = 1;
-    for (std::size_t i = 1; i < frames.size(); ++i) {
-        // The neighbour before is the row before: of the rows kept it may have grown already.
-        for (std::size_t run = short_run(frames, i); run > 0; --run) frames[kept - 1].frame_ms += frames[i++].frame_ms;
-        if (i < frames.size()) frames[kept++] = frames[i];
-    }
-    frames.resize(kept);
-    stream.notes.push_back(counted(static_cast<std::int64_t>(count), "present is", "presents are") +
-                           " far shorter than those beside, as frame generation makes them: put together with the "
-                           "frame before");
+bool is_shown_again(StreamFrames& stream, double told_ms, std::int64_t place) {
+    if (told_ms != 0 || stream.frames.empty()) return false;
+    stream.generated.of_zero.add(place);
+    return true;
 }
 
 std::vector<std::string> all_notes(const StreamFrames& stream, std::string_view place) {
@@ -113,6 +102,10 @@ std::vector<std::string> all_notes(const StreamFrames& stream, std::string_view 
     if (stream.unshown.count > 0) {
         notes.push_back(frames(stream.unshown) + " dropped, never shown" + first_in(stream.unshown, place) +
                         ": rendered, so kept");
+    }
+    if (stream.unknown_fate.count > 0) {
+        notes.push_back(frames(stream.unknown_fate) + " of unknown fate, shown or not" +
+                        first_in(stream.unknown_fate, place) + ": kept");
     }
     if (stream.untold.count > 0) {
         notes.push_back(frames(stream.untold) + " without a time" + first_in(stream.untold, place) + ": kept as NaN");
@@ -123,13 +116,10 @@ std::vector<std::string> all_notes(const StreamFrames& stream, std::string_view 
     }
     if (stream.unusable_parts.count > 0) {
         notes.push_back(counted(stream.unusable_parts.count, "CPU or GPU time", "CPU or GPU times") +
-                        " under 0 or over 10 minutes" + first_in(stream.unusable_parts, place) + ": taken as NaN");
+                        " that can't be read, under 0 or over 10 minutes" + first_in(stream.unusable_parts, place) +
+                        ": taken as NaN");
     }
-    if (stream.generated.rows.count > 0) {
-        notes.push_back(counted(stream.generated.rows.count, "row", "rows") + " of generated frames, " +
-                        stream.generated.type + first_in(stream.generated.rows, place) +
-                        ": left out, their time is in the application's next");
-    }
+    append_generated_notes(notes, stream, place);
     notes.insert(notes.end(), stream.notes.begin(), stream.notes.end());
     return notes;
 }

@@ -9,6 +9,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "sfsm/recordings/raw_times.h"
+
 namespace sfsm {
 
 // [ms]; NaN: not told, or not usable.
@@ -25,25 +27,49 @@ struct Tally {
     void add(std::int64_t place) {
         if (count++ == 0) first = place;
     }
+    void add(const Tally& later) {
+        if (count == 0) first = later.first;
+        count += later.count;
+    }
 };
 
 // Presents that the application did not render stand between its own. What they took belongs to the application's
 // next frame, unless they only show a present again that the application's row tells of too.
 struct GeneratedFrames {
-    Tally rows;
-    std::string type;         // of the first, as the file has it
+    Tally rows, of_zero;      // those that are called so, and presents of 0 ms behind others
+    std::string type;         // of the first row, as the file has it
     double waiting_ms = 0;    // of those since the application's last frame
     double last_ms = 0;       // of these, the last present's part
     std::size_t present = 0;  // hash of the last present's time, 0: unknown
+
+    std::int64_t count() const { return rows.count + of_zero.count; }
+};
+
+// Where a stream stands in its file: lines, and the presents' times as the file has them. Line 0: not told.
+struct Span {
+    std::int64_t first_line = 0, last_line = 0;
+    std::string first_time, last_time;
+
+    void extend(std::int64_t line, std::string_view time) {
+        if (first_line == 0) {
+            first_line = line;
+            first_time = time;
+        }
+        last_line = line;
+        last_time = time;
+    }
 };
 
 struct StreamFrames {
     std::string process, process_id, swap_chain;  // as the file has them
     std::vector<FrameTimes> frames;
-    std::vector<double> elapsed;  // of sampled rows [ns], one a frame
+    std::vector<RawTime> raw;  // times that become frames when all are known
 
-    Tally unshown, untold, unusable, unusable_parts;
+    Tally unshown, unknown_fate, untold, unusable, unusable_parts;
+    Tally other_types;       // rows of a FrameType that we don't know
+    std::string other_type;  // of the first of them
     GeneratedFrames generated;
+    Span span;
     std::vector<std::string> notes;  // of what else was done to the frames
 
     double seconds() const;
@@ -53,16 +79,17 @@ struct StreamFrames {
 void add_frame(StreamFrames& stream, FrameTimes times, std::size_t present);
 void add_generated(StreamFrames& stream, double ms, std::size_t present);
 
+// Whether a present only shows again what the one before did: it takes exactly 0 ms, and is not the stream's first,
+// of which some tools know no time. Then it is counted, and no frame.
+bool is_shown_again(StreamFrames& stream, double told_ms, std::int64_t place);
+
 // Times of a frame as they are told, into usable ones: a frame's in (0, 10 min], a part's in [0, 10 min], else NaN and
 // counted. `place` as in Tally.
 FrameTimes usable_times(FrameTimes told, StreamFrames& stream, std::int64_t place);
 
-// Frame generation that a tool takes for the application's own: a present that takes less than a tenth of both its
-// neighbours', up to three in a row, is put together with the frame before it, if a tenth or more of the presents are
-// such. The clock stays true.
-void merge_generated_presents(StreamFrames& stream);
+std::string counted(std::int64_t count, const char* one, const char* several);
 
-// Notes on all that was counted; `place`: "line" or "entry".
+// Notes on all that was counted and how it was read; `place`: "line" or "entry".
 std::vector<std::string> all_notes(const StreamFrames& stream, std::string_view place);
 
 // Streams by process, process id and swap chain, in the order in which they come up.

@@ -20,19 +20,60 @@ struct Capture {
     int dropped;
     double median_ms, longest_ms, sum_ms;
     double median_cpu_ms, median_gpu_ms;  // 0: not told
+    RecordingOptions options = {};        // what takes that group alone
 };
 
 constexpr Capture captures[] = {
-    {"presentmon-v1/gold_case_0_v1.csv", "PresentMon 1.x", "dwm.exe", 10, 199, 1, 16.6753, 418.0933, 4870.4841, 0,
-     0.2252},
-    {"presentmon-v1/gold_case_5_v1.csv", "PresentMon 1.x", "PresentBench.exe", 7, 259, 84, 11.0502, 12.1421, 2913.6028,
-     0, 0.937},
+    {"presentmon-v1/gold_case_0_v1.csv",
+     "PresentMon 1.x",
+     "dwm.exe",
+     10,
+     199,
+     1,
+     16.6753,
+     418.0933,
+     4870.4841,
+     0,
+     0.2252,
+     {"dwm"}},
+    {"presentmon-v1/gold_case_5_v1.csv",
+     "PresentMon 1.x",
+     "PresentBench.exe",
+     7,
+     259,
+     84,
+     11.0502,
+     12.1421,
+     2913.6028,
+     0,
+     0.937,
+     {{}, "0x2A70D2CAC00"}},
     {"presentmon-v1/farcrynewdawn_80ms_spike.csv", "PresentMon 1.x", "FarCryNewDawn.exe", 1, 1171, 0, 12.545, 80.095,
      15255.999, 0, 0},
-    {"presentmon-v2/gold_case_5_v2.csv", "PresentMon 2.x", "PresentBench.exe", 7, 258, 84, 11.0658, 12.1648, 2902.5904,
-     10.5215, 0.937},
-    {"presentmon-v2/gold_case_5_current.csv", "PresentMon current", "PresentBench.exe", 7, 258, 84, 11.0522, 12.1421,
-     2902.5974, 10.5215, 0.937},
+    {"presentmon-v2/gold_case_5_v2.csv",
+     "PresentMon 2.x",
+     "PresentBench.exe",
+     7,
+     258,
+     84,
+     11.0658,
+     12.1648,
+     2902.5904,
+     10.5215,
+     0.937,
+     {{}, "0x2a70d2cac00"}},
+    {"presentmon-v2/gold_case_5_current.csv",
+     "PresentMon current",
+     "PresentBench.exe",
+     7,
+     258,
+     84,
+     11.0522,
+     12.1421,
+     2902.5974,
+     10.5215,
+     0.937,
+     {{}, "0x2A70D2CAC00"}},
     {"ocat/OCAT-MetroExodus.exe-2019-02-20T101522.csv", "OCAT", "MetroExodus.exe", 1, 2502, 0, 10.201, 17.945,
      25386.433, 0, 0},
     {"capframex-csv/re2_280fps_58pct_dropped.csv", "CapFrameX CSV", "re2.exe", 1, 7285, 4236, 3.428, 8.211, 25443.206,
@@ -57,7 +98,7 @@ TEST_P(Captures, ReadAsTheirToolMeantThem) {
     const std::filesystem::path path = std::filesystem::path(GRANDSTAND_SHARED) / "traces" / expected.file;
     if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path << ": real captures are not at hand";
     std::ifstream file(path, std::ios::binary);
-    const Recording recording = read_recording(file, expected.file);
+    const Recording recording = read_recording(file, expected.file, expected.options);
     const Stream& chosen = recording.streams.at(recording.chosen);
     EXPECT_EQ(recording.format, expected.format);
     EXPECT_EQ(recording.streams.size(), expected.streams);
