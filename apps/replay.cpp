@@ -2,6 +2,8 @@
 // so; what the frames of a trace cost; and what laws are worth on simulated renderers.
 #include "sfsm/replay.h"
 
+#include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -100,6 +102,13 @@ struct Outputs {
     }
 };
 
+std::string frames_text(const std::vector<sfsm::TraceRow>& rows) {
+    const auto without =
+        std::count_if(rows.begin(), rows.end(), [](const auto& row) { return std::isnan(row.frame_ms); });
+    const std::string text = std::to_string(std::ssize(rows) - without) + " frames";
+    return without == 0 ? text : text + " and " + std::to_string(without) + " without a time";
+}
+
 void replay(const ReplayOptions& options) {
     Outputs outputs(options);
     const Session session = open_session(options);
@@ -108,6 +117,8 @@ void replay(const ReplayOptions& options) {
     Json json;
     for (const auto& [key, value] : facts) json[key] = value;
     json["delay"] = session.delay;  // [frames]
+    json["notes"] = session.recording.notes;
+    json["generated"] = session.recording.streams.at(session.recording.chosen).generated;  // presents, not rendered
     const Rerun recorded = recorded_run(session);
     json["recorded"] = rerun_json(recorded);
     Json& runs = json["runs"] = Json::array();
@@ -126,7 +137,7 @@ void replay(const ReplayOptions& options) {
     outputs.commit();
     for (const std::string* path : {&options.json, &options.csv, &options.report, &options.svg})
         if (*path == "-") return;
-    std::cout << options.trace << ": " << session.recording.format << ", " << recorded.rows.size() << " frames, "
+    std::cout << options.trace << ": " << session.recording.format << ", " << frames_text(recorded.rows) << ", "
               << (session.course ? "closed" : "open") << " loop, delay " << session.delay << ", target "
               << session.recording.trace.settings.at("target_ms") << " ms\n";
     write_scores(std::cout, report.runs);

@@ -38,7 +38,10 @@ void add_replay_options(CLI::App& app, ReplayOptions& options) {
                                  "Frames that a time arrives late; default: the trace's, or 2 of another recording")
                       ->check(whole_number(0, sfsm::max_delay));
     auto* process = app.add_option("--process", options.process,
-                                   "Name, id or swap chain of which to take; default: the one with most frames");
+                                   "Name (with .exe or without), id or swap chain of which to take; default: the one "
+                                   "with most frames, but not the desktop's compositor");
+    auto* chain = app.add_option("--swap-chain", options.swap_chain,
+                                 "Swap chain to take alone; default: all of a process that follow one another");
     auto* open = app.add_flag("--open-loop", options.open_loop, "Only what the law would decide");
     auto* json = app.add_option("--json", options.json, "Write the figures as JSON (- = stdout)");
     auto* csv = app.add_option("--csv", options.csv, "Write the run as a trace (- = stdout); of one law");
@@ -46,17 +49,17 @@ void add_replay_options(CLI::App& app, ReplayOptions& options) {
     auto* svg = app.add_option("--svg", options.svg, "Write the picture of it, SVG (- = stdout)");
     auto* fit =
         app.add_flag("--fit", options.fit, "Only what each kind of work cost in the trace, and how sure that is")
-            ->excludes(law, target, delay, process, open, csv, report, svg);
+            ->excludes(law, target, delay, process, chain, open, csv, report, svg);
     auto* verify =
         app.add_flag("--verify", options.verify, "Only check that the trace's law reproduces the recorded decisions")
-            ->excludes(law, target, delay, process, open, json, csv, report, svg, fit);
+            ->excludes(law, target, delay, process, chain, open, json, csv, report, svg, fit);
     auto* explain =
         app.add_option("--explain", options.explained,
                        "Only say what was asked, believed and foreseen for this frame, and why the law decides so")
             ->type_name("FRAME")
-            ->excludes(target, delay, process, open, json, csv, report, svg, fit, verify);
+            ->excludes(target, delay, process, chain, open, json, csv, report, svg, fit, verify);
     add_simulate_options(app, options.simulated)
-        ->excludes(trace, law, target, delay, process, open, report, svg, fit, verify, explain);
+        ->excludes(trace, law, target, delay, process, chain, open, report, svg, fit, verify, explain);
 }
 
 void check(ReplayOptions& options) {

@@ -33,26 +33,26 @@ std::string describe(const sfsm::Stream& stream) {
     return text + " (" + std::to_string(stream.frames) + " frames)";
 }
 
-// What the reader had to say, and which of several streams it took.
-void say_notes(const sfsm::Recording& recording, const std::string& path) {
-    for (const std::string& note : recording.notes) say(path + ": " + note);
-    if (recording.streams.size() < 2) return;
+// Which of several streams was taken.
+std::string chosen_note(const sfsm::Recording& recording) {
     constexpr std::size_t most_named = 8;
     std::string others;
     for (std::size_t i = 0; i < recording.streams.size() && i <= most_named; ++i) {
         if (i != recording.chosen) others += (others.empty() ? "" : ", ") + describe(recording.streams[i]);
     }
     if (recording.streams.size() > most_named + 1) others += ", ...";
-    say(path + ": " + std::to_string(recording.streams.size()) + " streams; taken: " +
-        describe(recording.streams[recording.chosen]) + "; --process takes another of: " + others);
+    return std::to_string(recording.streams.size()) +
+           " streams; taken: " + describe(recording.streams[recording.chosen]) +
+           "; --process takes another of: " + others;
 }
 
-sfsm::Recording read(const std::string& path, const std::string& process) {
+sfsm::Recording read(const std::string& path, const sfsm::RecordingOptions& options) {
     errno = 0;
     std::ifstream file(path, std::ios::binary);
     if (!file) throw std::runtime_error("cannot read " + path + ": " + std::strerror(errno) + ", expected a recording");
-    sfsm::Recording recording = sfsm::read_recording(file, path, {process});
-    say_notes(recording, path);
+    sfsm::Recording recording = sfsm::read_recording(file, path, options);
+    if (recording.streams.size() > 1) recording.notes.push_back(chosen_note(recording));
+    for (const std::string& note : recording.notes) say(path + ": " + note);
     return recording;
 }
 
@@ -81,7 +81,7 @@ std::vector<sim::Contestant> laws_for(const ReplayOptions& options, const sfsm::
 
 Session open_session(const ReplayOptions& options) {
     Session session;
-    session.recording = read(options.trace, options.process);
+    session.recording = read(options.trace, {options.process, options.swap_chain});
     const bool has_work = session.recording.has_work();
     session.delay = options.delay.value_or(has_work ? sfsm::trace_delay(session.recording.trace) : gpu_delay);
     if (has_work) session.drawing = sfsm::trace_drawing(session.recording.trace);

@@ -24,7 +24,8 @@ struct Session {
     std::optional<sfsm::simulate::Course> course;  // closed loop
 };
 
-// Says on stderr what the reader had to say. Throws what the readers throw.
+// Says on stderr what the reader had to say, and adds to its notes which of several streams was taken. Throws what the
+// readers throw.
 Session open_session(const ReplayOptions& options);
 
 // A trace of ours, or throws std::runtime_error saying what was found.

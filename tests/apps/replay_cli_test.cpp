@@ -66,8 +66,9 @@ protected:
 TEST_F(ReplayProgram, HelpAndVersionSucceed) {
     const Outcome help = replay("--help"), version = replay("--version");
     EXPECT_EQ(help.code, 0);
-    for (const char* word : {"--verify", "--explain FRAME", "--fit", "--open-loop", "--delay", "--process",
-                             "--target-ms", "--csv", "--json", "--report", "--svg", "--law", "Examples:"}) {
+    for (const char* word :
+         {"--verify", "--explain FRAME", "--fit", "--open-loop", "--delay", "--process", "--swap-chain", "--target-ms",
+          "--csv", "--json", "--report", "--svg", "--law", "Examples:"}) {
         EXPECT_NE(help.out.find(word), std::string::npos) << word;
     }
     EXPECT_EQ(version.code, 0);
@@ -126,6 +127,7 @@ TEST_F(ReplayProgram, BadFilesAreOneLineAndCode1) {
         {save(unmeasured, "unmeasured.csv") + " --fit", "unmeasured.csv: found 0 frames with a time"},
         {save(too_slow, "too_slow.csv"), "too_slow.csv: frame 0: found target 1e+07 ms"},
         {capture() + " --process nobody.exe", "game.exe"},
+        {capture() + " --swap-chain 0x9", "game.exe"},
         {capture() + " --verify", "expected a trace of ours"},
         {capture() + " --fit", "expected a trace of ours"},
         {capture() + " --explain 3", "expected a trace of ours"},
@@ -421,6 +423,27 @@ TEST_F(ReplayProgram, TakesTheBusiestProcessOrTheOneAskedFor) {
     const Outcome asked = replay(capture() + " --process dwm.exe --json -");
     ASSERT_EQ(asked.code, 0) << asked.err;
     EXPECT_EQ(json::parse(asked.out).at("recorded").at("frames"), 134);
+}
+
+TEST_F(ReplayProgram, WhatTheReaderDidStandsInTheFigures) {
+    const json figures = json::parse(replay(capture() + " --open-loop --json -").out);
+    ASSERT_EQ(figures.at("notes").size(), 1u);
+    EXPECT_NE(figures.at("notes").at(0).get<std::string>().find("2 streams; taken: 'game.exe'"), std::string::npos);
+    EXPECT_EQ(figures.at("generated"), 0);
+    EXPECT_EQ(json::parse(replay(save(recorded()) + " --json -").out).at("notes"), json::array());
+}
+
+TEST_F(ReplayProgram, FramesAreCountedAlikeEverywhere) {
+    std::ofstream file(in_folder("game.csv"));
+    file << "Application,MsBetweenPresents\ngame.exe,NA\n";
+    for (int i = 0; i < 10; ++i) file << "game.exe,20\ngame.exe,0\n";
+    file.close();
+    const json figures = json::parse(replay(in_folder("game.csv") + " --open-loop --json -").out);
+    EXPECT_EQ(figures.at("recorded").at("frames"), 10);
+    EXPECT_EQ(figures.at("runs").at(0).at("frames"), 10);
+    EXPECT_EQ(figures.at("generated"), 10);
+    const std::string table = replay(in_folder("game.csv") + " --open-loop").out;
+    EXPECT_NE(table.find(", 10 frames and 1 without a time, "), std::string::npos) << table;
 }
 
 // Names are other people's: they can't steer a terminal, nor make two lines of one.
