@@ -29,7 +29,8 @@ With --verify, failed is also what is not reproduced.)";
 
 void add_replay_options(CLI::App& app, ReplayOptions& options) {
     describe(app, examples);
-    auto* trace = app.add_option("TRACE", options.trace, "What stadium --trace or another tool recorded");
+    auto* trace = app.add_option("TRACE", options.trace,
+                                 "What stadium --trace or another tool recorded; may be gzipped (- = stdin)");
     auto* law = app.add_option("--law", options.laws, "Law to feed, LAW[,LAW ...], or all; default: the trace's");
     auto* target =
         app.add_option("--target-ms", options.target_ms,
@@ -67,7 +68,7 @@ void check(ReplayOptions& options) {
     options.simulated.json = options.json;
     const Place outputs[] = {
         {"--json", options.json}, {"--csv", options.csv}, {"--report", options.report}, {"--svg", options.svg}};
-    const Place inputs[] = {{"TRACE", options.trace}};
+    const Place inputs[] = {{"TRACE", options.trace == "-" ? "" : options.trace}};
     check_places(inputs, outputs);
     if (!options.simulated.scenario.empty()) return check(options.simulated);
     if (options.trace.empty()) throw std::invalid_argument("found no TRACE, expected the trace of a run or --simulate");

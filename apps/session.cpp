@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <iostream>
 #include <map>
 #include <stdexcept>
 
@@ -48,9 +49,11 @@ std::string chosen_note(const sfsm::Recording& recording) {
 
 sfsm::Recording read(const std::string& path, const sfsm::RecordingOptions& options) {
     errno = 0;
-    std::ifstream file(path, std::ios::binary);
-    if (!file) throw std::runtime_error("cannot read " + path + ": " + std::strerror(errno) + ", expected a recording");
-    sfsm::Recording recording = sfsm::read_recording(file, path, options);
+    std::ifstream file;
+    if (path != "-") file.open(path, std::ios::binary);
+    if (path != "-" && !file)
+        throw std::runtime_error("cannot read " + path + ": " + std::strerror(errno) + ", expected a recording");
+    sfsm::Recording recording = sfsm::read_recording(path == "-" ? std::cin : file, path, options);
     if (recording.streams.size() > 1) recording.notes.push_back(chosen_note(recording));
     for (const std::string& note : recording.notes) say(path + ": " + note);
     return recording;

@@ -11,6 +11,7 @@
 #include "sfsm/recordings/formats.h"
 #include "sfsm/recordings/row_splitter.h"
 #include "sfsm/recordings/swap_chains.h"
+#include "sfsm/recordings/text_source.h"
 #include "sfsm/text.h"
 
 namespace sfsm {
@@ -36,15 +37,9 @@ bool is_json(std::string_view head) {
     return first != std::string_view::npos && (head[first] == '{' || head[first] == '[');
 }
 
-void refuse_other_bytes(const LineReader& lines) {
-    const std::string_view head = lines.head();
-    const char* found = nullptr;
-    if (head.starts_with("\xFF\xFE") || head.starts_with("\xFE\xFF")) {
-        found = "found UTF-16 text, expected UTF-8: save it so, as ";
-    } else if (head.find('\0') != std::string_view::npos) {
-        found = "found a binary file, expected ";
-    }
-    if (found) lines.fail(found + readable_formats());
+void refuse_binary(const LineReader& lines) {
+    if (lines.head().find('\0') != std::string_view::npos)
+        lines.fail("found a binary file, expected " + readable_formats());
 }
 
 Recording our_recording(LineReader& lines) {
@@ -173,14 +168,19 @@ Recording to_recording(Collected collected, const std::string& name, const Recor
 }  // namespace
 
 Recording read_recording(std::istream& in, const std::string& name, const RecordingOptions& options) {
-    LineReader lines(in, name);
-    refuse_other_bytes(lines);
+    TextSource source(in, name);
+    LineReader lines(source.stream(), name);
+    refuse_binary(lines);
+    Recording recording;
     if (is_our_trace(lines.head())) {
-        Recording recording = our_recording(lines);
+        recording = our_recording(lines);
         recording.chosen = choose(recording, name, options);
-        return recording;
+    } else {
+        recording =
+            to_recording(is_json(lines.head()) ? read_capframex_json(lines) : read_csv_recording(lines), name, options);
     }
-    return to_recording(is_json(lines.head()) ? read_capframex_json(lines) : read_csv_recording(lines), name, options);
+    recording.notes.insert(recording.notes.end(), source.notes().begin(), source.notes().end());
+    return recording;
 }
 
 }  // namespace sfsm

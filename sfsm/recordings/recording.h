@@ -45,8 +45,9 @@ struct RecordingOptions {
     std::string swap_chain = {};
 };
 
-// Reads in pieces: memory grows with the frames, not with the bytes. Columns are found by name. Throws
-// std::runtime_error: one line with `name`, the line number, what was found and what was expected.
+// The file may be packed by gzip, and be UTF-16. Reads in pieces: memory grows with the frames, not with the bytes.
+// Columns are found by name. Throws std::runtime_error: one line with `name`, the line number, what was found and what
+// was expected.
 Recording read_recording(std::istream& in, const std::string& name, const RecordingOptions& options = {});
 
 }  // namespace sfsm

@@ -433,6 +433,16 @@ TEST_F(ReplayProgram, WhatTheReaderDidStandsInTheFigures) {
     EXPECT_EQ(json::parse(replay(save(recorded()) + " --json -").out).at("notes"), json::array());
 }
 
+TEST_F(ReplayProgram, ReadsStandardInput) {
+    const Outcome piped = tests::run("replay", "- --open-loop --json - < " + capture());
+    ASSERT_EQ(piped.code, 0) << piped.err;
+    json figures = json::parse(piped.out), of_file = json::parse(replay(capture() + " --open-loop --json -").out);
+    EXPECT_EQ(figures.at("recording"), "-");
+    figures.erase("recording");
+    of_file.erase("recording");
+    EXPECT_EQ(figures, of_file);
+}
+
 TEST_F(ReplayProgram, FramesAreCountedAlikeEverywhere) {
     std::ofstream file(in_folder("game.csv"));
     file << "Application,MsBetweenPresents\ngame.exe,NA\n";

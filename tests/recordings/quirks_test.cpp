@@ -455,10 +455,6 @@ TEST(Quirks, RubbishIsRefusedByItsLine) {
         {"\n\nhello\nworld\n", "r.csv:3: found no header but 'hello', expected one of our own traces"},
         {"# law=paper\n//GPU=1\nhello\nworld\n", "r.csv:3: found no header but 'hello'"},
         {std::string("MZ\0\1", 4), "r.csv:1: found a binary file, expected one of our own"},
-        {std::string("\xFF\xFE"
-                     "A\0p\0",
-                     6),
-         "r.csv:1: found UTF-16 text, expected UTF-8"},
         {"\x1b[31m\x07" + std::string(100, 'x'), "found no header but '?[31m?xxx"},
         {header, "r.csv:1: found no row behind the header of PresentMon 1.x, expected at least one"},
         {"Frame, Time (ms)\n1, 0\n", "found no frame of FRAPS"},
