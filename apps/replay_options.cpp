@@ -11,8 +11,10 @@ namespace {
 
 const std::string examples = R"(Examples:
   replay out/stadium.csv                                the run again, with decisions of its law
-  replay game.csv --process game.exe --target-ms 8.3    what PresentMon, OCAT, CapFrameX, FrameView, MangoHud or
-                                                        FRAPS recorded, as the load of our reference crowd
+  replay game.csv --process game.exe --target-ms 8.3    what PresentMon, OCAT, CapFrameX, FrameView, MangoHud,
+                                                        FRAPS, Afterburner or Unreal recorded, as the load of our
+                                                        reference crowd
+  replay bench.csv.gz --column "GPU frame" --unit us    any table with a column of times
   replay out/stadium.csv --law paper,predictive --report laws.html
   replay out/stadium.csv --open-loop --csv decisions.csv --json -
   replay out/stadium.csv --fit                          what each kind of work cost
@@ -43,6 +45,11 @@ void add_replay_options(CLI::App& app, ReplayOptions& options) {
                                    "with most frames, but not the desktop's compositor");
     auto* chain = app.add_option("--swap-chain", options.swap_chain,
                                  "Swap chain to take alone; default: all of a process that follow one another");
+    auto* column =
+        app.add_option("--column", options.column,
+                       "Column of any table that has the frame times: its name, or number where it has none");
+    auto* unit = app.add_option("--unit", options.unit, "Unit of these times; default: the column's name or a guess")
+                     ->check(CLI::IsMember({"ms", "us", "s", "fps"}));
     auto* open = app.add_flag("--open-loop", options.open_loop, "Only what the law would decide");
     auto* json = app.add_option("--json", options.json, "Write the figures as JSON (- = stdout)");
     auto* csv = app.add_option("--csv", options.csv, "Write the run as a trace (- = stdout); of one law");
@@ -50,17 +57,17 @@ void add_replay_options(CLI::App& app, ReplayOptions& options) {
     auto* svg = app.add_option("--svg", options.svg, "Write the picture of it, SVG (- = stdout)");
     auto* fit =
         app.add_flag("--fit", options.fit, "Only what each kind of work cost in the trace, and how sure that is")
-            ->excludes(law, target, delay, process, chain, open, csv, report, svg);
+            ->excludes(law, target, delay, process, chain, column, unit, open, csv, report, svg);
     auto* verify =
         app.add_flag("--verify", options.verify, "Only check that the trace's law reproduces the recorded decisions")
-            ->excludes(law, target, delay, process, chain, open, json, csv, report, svg, fit);
+            ->excludes(law, target, delay, process, chain, column, unit, open, json, csv, report, svg, fit);
     auto* explain =
         app.add_option("--explain", options.explained,
                        "Only say what was asked, believed and foreseen for this frame, and why the law decides so")
             ->type_name("FRAME")
-            ->excludes(target, delay, process, chain, open, json, csv, report, svg, fit, verify);
+            ->excludes(target, delay, process, chain, column, unit, open, json, csv, report, svg, fit, verify);
     add_simulate_options(app, options.simulated)
-        ->excludes(trace, law, target, delay, process, chain, open, report, svg, fit, verify, explain);
+        ->excludes(trace, law, target, delay, process, chain, column, unit, open, report, svg, fit, verify, explain);
 }
 
 void check(ReplayOptions& options) {

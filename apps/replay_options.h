@@ -17,6 +17,7 @@ struct ReplayOptions {
     std::optional<int> delay;  // [frames]; empty: the trace's, or a timer query's
     std::string process;       // empty: the stream with most frames
     std::string swap_chain;    // empty: all of the process that follow one another
+    std::string column, unit;  // of the times; empty: as the format says
     std::optional<std::int64_t> explained;  // frame
     bool open_loop = false, fit = false, verify = false;
     std::string json, csv, report, svg;  // paths; empty: none; "-": stdout

@@ -84,7 +84,8 @@ std::vector<sim::Contestant> laws_for(const ReplayOptions& options, const sfsm::
 
 Session open_session(const ReplayOptions& options) {
     Session session;
-    session.recording = read(options.trace, {options.process, options.swap_chain});
+    session.recording =
+        read(options.trace, {options.process, options.swap_chain, options.column, sfsm::unit_named(options.unit)});
     const bool has_work = session.recording.has_work();
     session.delay = options.delay.value_or(has_work ? sfsm::trace_delay(session.recording.trace) : gpu_delay);
     if (has_work) session.drawing = sfsm::trace_drawing(session.recording.trace);

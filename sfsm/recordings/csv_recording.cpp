@@ -21,27 +21,6 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t longest_preamble = 200;        // lines
 constexpr std::size_t longest_preamble_line = 4096;  // what is kept of it [bytes]
 
-// What a C library writes where there is no number: "-1.#IND", "1.#QNAN", "-nan(ind)" ...
-bool is_no_number(std::string_view text) {
-    if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
-    return text.starts_with("1.#") || text.starts_with("1,#") || same_name(text.substr(0, 4), "nan(");
-}
-
-bool is_not_available(std::string_view text) {
-    return same_name(text, "NA") || same_name(text, "N/A") || same_name(text, "null") || is_no_number(text);
-}
-
-// NaN: not available; nothing: no number. A decimal comma is as good as a point.
-std::optional<double> told_number(std::string_view text) {
-    if (const std::optional<double> value = parse_double(text)) return value;
-    if (text.empty() || is_not_available(text)) return unknown;
-    if (text.starts_with('+')) return parse_double(text.substr(1));
-    if (std::count(text.begin(), text.end(), ',') != 1) return std::nullopt;
-    std::string with_point(text);
-    std::replace(with_point.begin(), with_point.end(), ',', '.');
-    return parse_double(with_point);
-}
-
 // Who made a frame. Names that we don't know are no reason to think that nobody rendered it.
 enum class Maker { application, generator, repetition, somebody };
 
@@ -69,7 +48,7 @@ bool begins_mangohud(std::string_view line) {
 
 class CsvReader {
 public:
-    explicit CsvReader(LineReader& lines) : lines_(lines) {}
+    CsvReader(LineReader& lines, ColumnWish wish) : lines_(lines), wish_(std::move(wish)) {}
 
     Collected read();
 
@@ -80,6 +59,7 @@ private:
     void read_preamble();
     void note_preamble(const Format& format);
     void take_line(std::string_view line);
+    bool is_aside(std::string_view line);
     bool begins_again(std::string_view line);
     std::string fault(RowSplitter::Result result) const;
     void leave_out(std::string fault);
@@ -99,6 +79,7 @@ private:
     [[noreturn]] void fail_without_header() const;
 
     LineReader& lines_;
+    ColumnWish wish_;
     std::vector<std::string> preamble_;  // lines before the header
     std::int64_t suspect_ = 0;           // number of the first of them that is no comment, else of the first
     std::string suspect_text_;
@@ -139,9 +120,9 @@ Collected CsvReader::read() {
 
 void CsvReader::seek_header(std::string_view line) {
     const bool has_preamble = !preamble_.empty() && preamble_.front().starts_with("//");
-    if (const std::optional<Header> header = find_header(line, has_preamble, lines_)) {
+    if (const std::optional<Header> header = find_header(line, has_preamble, wish_, lines_)) {
         begin_table(*header, line);
-        return;
+        return header->is_a_row ? take_line(line) : void();
     }
     keep_preamble(line);
     if (preamble_.size() > longest_preamble) fail_without_header();
@@ -160,7 +141,8 @@ void CsvReader::begin_table(const Header& header, std::string_view line) {
                     ", expected rows of " + collected_.format);
     }
     if (header_) {
-        repeated_headers_.add(lines_.number());
+        // Unreal writes its header once more at the end.
+        if (header.format->lines != Format::Lines::unreal) repeated_headers_.add(lines_.number());
     } else {
         collected_.format = header.format->name;
         read_preamble();
@@ -182,6 +164,7 @@ void CsvReader::read_preamble() {
             collected_.settings[std::string(without_blanks(line.substr(2, equals - 2)))] =
                 without_blanks(line.substr(equals + 1));
         }
+        if (line.starts_with("01,")) collected_.settings["GPU"] = split_fields(line, ',').back();
         if (!line.starts_with("os,") || i + 1 == preamble_.size()) continue;
         const std::vector<std::string> keys = split_fields(line, ','), values = split_fields(preamble_[i + 1], ',');
         for (std::size_t k = 0; keys.size() == values.size() && k < keys.size(); ++k) {
@@ -192,7 +175,8 @@ void CsvReader::read_preamble() {
 
 // What a recorder said on the console, say.
 void CsvReader::note_preamble(const Format& format) {
-    if (format.rows == Rows::samples || preamble_.empty() || is_comment(suspect_text_)) return;
+    const bool has_lines = format.rows == Rows::samples || format.lines == Format::Lines::afterburner;
+    if (has_lines || preamble_.empty() || is_comment(suspect_text_)) return;
     first_before_header_ = shown(suspect_text_);
     before_header_.first = suspect_;
     before_header_.count =
@@ -201,7 +185,9 @@ void CsvReader::note_preamble(const Format& format) {
 
 void CsvReader::take_line(std::string_view line) {
     using Result = RowSplitter::Result;
-    const Result result = row_->split(line);
+    if (header_->format->lines != Format::Lines::rows && is_aside(line)) return;
+    Result result = row_->split(line);
+    if (result == Result::too_long && header_->format->lines == Format::Lines::unreal) result = Result::good;
     std::optional<double> told;
     if (result == Result::good) told = told_number(row_->text(Column::frame_time));
     if (told) {
@@ -213,6 +199,20 @@ void CsvReader::take_line(std::string_view line) {
         return collected_.notes.push_back(cut_line_note(lines_));
     }
     leave_out(fault(result));
+}
+
+// Lines that are no rows by their beginning.
+bool CsvReader::is_aside(std::string_view line) {
+    if (header_->format->lines == Format::Lines::afterburner) return !line.starts_with("80") && !line.starts_with("02");
+    if (!line.starts_with('[')) return false;
+    // "[Key],value,[Key],value": of these what can't name a user's folders.
+    const std::vector<std::string> fields = split_fields(line, header_->separator);
+    for (std::size_t i = 0; i + 1 < fields.size(); i += 2) {
+        for (const char* key : {"Platform", "Config", "CPU", "DesktopGPU"}) {
+            if (same_name(fields[i], '[' + std::string(key) + ']')) collected_.settings[key] = fields[i + 1];
+        }
+    }
+    return true;
 }
 
 // What was found and what was expected, of a row that can't be read.
@@ -252,14 +252,17 @@ bool CsvReader::begins_again(std::string_view line) {
         keep_preamble(line);
         return true;
     }
-    const std::optional<Header> header = find_header(line, header_->format->has_preamble, lines_);
-    if (header) begin_table(*header, line);
-    return header.has_value();
+    const std::optional<Header> header = find_header(line, header_->format->has_preamble, wish_, lines_);
+    const bool is_other_column = header && header->format->rows == Rows::times && header->format != header_->format;
+    if (!header || header->is_a_row || is_other_column) return false;
+    begin_table(*header, line);
+    return true;
 }
 
 void CsvReader::take_row(double told) {
     ++rows_;
-    if (header_->format->rows == Rows::presents) {
+    const Rows rows = header_->format->rows;
+    if (rows == Rows::presents || rows == Rows::frames) {
         take_present(told);
     } else {
         take_raw(told);
@@ -283,6 +286,7 @@ void CsvReader::take_present(double told_ms) {
 
 // Whether the row only shows what another generated, or what was rendered before.
 bool CsvReader::is_no_frame(StreamFrames& stream, double told_ms) {
+    if (header_->format->rows != Rows::presents) return false;
     const std::string_view type = row_->text(Column::frame_type);
     const Maker maker = maker_of(type);
     const bool is_repeated = maker == Maker::repetition && present() != 0 && present() == stream.generated.present;
@@ -321,14 +325,20 @@ void CsvReader::take_fate(StreamFrames& stream) {
 
 // A row that means nothing before all are known.
 void CsvReader::take_raw(double told) {
-    StreamFrames& stream = table_.find("", "", "");
+    StreamFrames& stream =
+        table_.find(row_->text(Column::process), row_->text(Column::process_id), row_->text(Column::swap_chain));
+    stream.span.extend(lines_.number(), row_->text(Column::present_time));
     stream.raw.push_back({told, number(Column::fps), number(Column::elapsed), lines_.number(), is_first_});
 }
 
 void CsvReader::finish_raw() {
     for (StreamFrames& stream : table_.streams()) {
         if (header_->format->rows == Rows::samples) take_mangohud_rows(stream, lines_.name());
-        if (header_->format->rows == Rows::clock) take_raw_times(stream, {Unit::ms, ColumnMeaning::Sense::clock});
+        if (header_->format->rows == Rows::clock)
+            take_raw_times(stream, {Unit::ms, ColumnMeaning::Sense::likely_clock});
+        if (header_->format->rows == Rows::times) take_raw_times(stream, header_->meaning);
+        if (header_->format->name == "Afterburner")
+            stream.notes.push_back("samples, taken now and then: each stands for one frame, most are not recorded");
     }
 }
 
@@ -383,7 +393,14 @@ std::size_t CsvReader::present() const {
 void CsvReader::fail_without_header() const {
     const std::string expected = ", expected " + readable_formats();
     if (preamble_.empty()) lines_.fail_at(1, "found an empty file" + expected);
-    lines_.fail_at(suspect_, "found no header but " + shown(suspect_text_) + expected);
+    const std::string wished = wish_.column.empty() ? "" : "no column " + shown(wish_.column) + " but ";
+    for (std::size_t i = 0; i + 1 < preamble_.size(); ++i) {
+        const std::string columns = number_columns(preamble_[i], preamble_[i + 1]);
+        if (!columns.empty())
+            lines_.fail("found " + wished + "columns " + columns + ", expected one of them named as --column");
+    }
+    lines_.fail_at(suspect_, "found no " + (wish_.column.empty() ? "header" : "column " + shown(wish_.column)) +
+                                 " but " + shown(suspect_text_) + expected);
 }
 
 }  // namespace
@@ -392,8 +409,8 @@ std::string cut_line_note(const LineReader& lines) {
     return "line " + std::to_string(lines.number()) + ", the last, is cut short: left out";
 }
 
-Collected read_csv_recording(LineReader& lines) {
-    return CsvReader(lines).read();
+Collected read_csv_recording(LineReader& lines, const ColumnWish& wish) {
+    return CsvReader(lines, wish).read();
 }
 
 }  // namespace sfsm

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "sfsm/recordings/formats.h"
 #include "sfsm/recordings/stream_frames.h"
 
 namespace sfsm {
@@ -10,7 +11,7 @@ namespace sfsm {
 class LineReader;
 
 // From the first line on. Throws std::runtime_error as read_recording says.
-Collected read_csv_recording(LineReader& lines);
+Collected read_csv_recording(LineReader& lines, const ColumnWish& wish);
 
 // The note on a last line that has no line end.
 std::string cut_line_note(const LineReader& lines);

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "sfsm/recordings/raw_times.h"
+
 namespace sfsm {
 
 class LineReader;
@@ -27,22 +29,33 @@ enum class Column {
     present_time,  // any text that differs from present to present
     fps,
     elapsed,  // [ns]
+    record,   // what a line is: of Afterburner's own files
 };
-inline constexpr std::size_t column_count = 13;
+inline constexpr std::size_t column_count = 14;
 
 enum class Rows {
     presents,  // one a present
+    frames,    // one a frame
     samples,   // one now and then, or one a frame
     clock,     // one a frame: when it began
+    times,     // a column of times, of which the header tells what it can
 };
 
 struct Format {
     std::string_view name;
     Rows rows;
-    std::string_view frame_time;          // the column that it must have
-    std::vector<std::string_view> marks;  // and one of these, if there are any
-    bool has_preamble = false;            // and lines "//Key=Value" before the header
-    std::string_view frame_rest = {};     // a second column that it must have
+    std::string_view frame_time;                                         // the column that it must have
+    std::vector<std::string_view> marks;                                 // and one of these, if there are any
+    bool has_preamble = false;                                           // and lines "//Key=Value" before the header
+    std::string_view frame_rest = {};                                    // a second column that it must have
+    std::optional<Unit> unit = {};                                       // of Rows::times
+    enum class Lines { rows, unreal, afterburner } lines = Lines::rows;  // what lines behind the header are
+};
+
+// What is asked for in place of what the table finds.
+struct ColumnWish {
+    std::string column;        // a name, or a number from 1 where columns have no names; empty: any that is known
+    std::optional<Unit> unit;  // of Rows::times
 };
 
 // Where the columns of one file stand.
@@ -50,6 +63,8 @@ struct Header {
     const Format* format = nullptr;
     char separator = ',';
     std::size_t fields = 0;
+    ColumnMeaning meaning;  // of Rows::times
+    bool is_a_row = false;  // the line has no names but values
     std::array<std::optional<std::size_t>, column_count> position;
     std::array<std::string, column_count> names;  // as the file has them
 
@@ -57,11 +72,23 @@ struct Header {
     const std::string& name(Column column) const { return names[static_cast<std::size_t>(column)]; }
 };
 
-// The header that `line` is, if it is one; names in any case, separators ',', ';' or tab. Throws as `place` does if a
-// column that we read is there twice.
-std::optional<Header> find_header(std::string_view line, bool after_preamble, const LineReader& place);
+// The header that `line` is, if it is one; names in any case, separators ',', ';' or tab. A table that is none of these
+// may have one column of times: by its name ("Frame time (ms)"), or as a number alone in its line. Throws as `place`
+// does if a column that we read is there twice.
+std::optional<Header> find_header(std::string_view line, bool after_preamble, const ColumnWish& wish,
+                                  const LineReader& place);
 
-// "PresentMon 1.x, ...", for messages.
+// The columns with numbers of a table whose header is `line`, in quotes, or their
+// numbers where it has no names; `next` is the line behind it. Empty: there are none.
+std::string number_columns(std::string_view line, std::string_view next);
+
+// "one of our own traces, PresentMon ...", for messages: short, as they are one line.
 std::string readable_formats();
+
+// The number that a field tells. NaN: not available; nothing: no number. A decimal comma is as good as a point.
+std::optional<double> told_number(std::string_view text);
+
+// "NA" or the like, or what a C library writes where there is no number: "-1.#IND", "1.#QNAN", "-nan(ind)" ...
+bool is_not_available(std::string_view text);
 
 }  // namespace sfsm

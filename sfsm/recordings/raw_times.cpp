@@ -32,17 +32,42 @@ constexpr std::array<std::pair<std::string_view, Unit>, 18> unit_names = {{{"ns"
                                                                            {"hz", Unit::fps},
                                                                            {"frames/s", Unit::fps}}};
 
-// A clock goes on from row to row, but for a few.
-bool is_clock(const std::vector<RawTime>& raw) {
-    constexpr std::size_t fewest = 10;
-    constexpr double most_back = 0.01;
-    std::size_t steps = 0, back = 0;
-    for (std::size_t i = 1; i < raw.size(); ++i) {
-        if (raw[i].is_first || std::isnan(raw[i].time) || std::isnan(raw[i - 1].time)) continue;
-        ++steps;
-        back += !(raw[i].time > raw[i - 1].time);
+// How times go on from row to row.
+struct Course {
+    std::size_t steps = 0, back = 0;  // back: or standing
+    double risen = 0, range = 0;      // sum of the steps up; between the least and the greatest, of each clock
+};
+
+Course course_of(const std::vector<RawTime>& raw) {
+    Course course;
+    double least = 0, greatest = 0;
+    for (std::size_t i = 0; i < raw.size(); ++i) {
+        if (std::isnan(raw[i].time)) continue;
+        if (i == 0 || raw[i].is_first || std::isnan(raw[i - 1].time)) {
+            course.range += greatest - least;
+            least = greatest = raw[i].time;
+            continue;
+        }
+        const double step = raw[i].time - raw[i - 1].time;
+        ++course.steps;
+        course.back += !(step > 0);
+        course.risen += std::max(step, 0.0);
+        least = std::min(least, raw[i].time);
+        greatest = std::max(greatest, raw[i].time);
     }
-    return steps >= fewest && static_cast<double>(back) <= most_back * static_cast<double>(steps);
+    course.range += greatest - least;
+    return course;
+}
+
+// A clock goes on from row to row, but for a few; frames rise and fall within their range.
+bool is_clock(const std::vector<RawTime>& raw, ColumnMeaning::Sense sense) {
+    const Course course = course_of(raw);
+    const bool is_likely = sense == ColumnMeaning::Sense::likely_clock;
+    const std::size_t fewest = is_likely ? 0 : 10;
+    const double most_back = is_likely ? 0.5 : 0.01, least_range = 0.5;
+    return course.steps >= fewest &&
+           static_cast<double>(course.back) <= most_back * static_cast<double>(course.steps) &&
+           course.range >= least_range * course.risen;
 }
 
 // Times become those since the row before; the first of each clock goes.
@@ -112,11 +137,13 @@ double in_milliseconds(double time, Unit unit) {
 
 void take_raw_times(StreamFrames& stream, ColumnMeaning meaning) {
     using Sense = ColumnMeaning::Sense;
-    if (meaning.sense == Sense::to_be_found && meaning.unit != Unit::fps && is_clock(stream.raw)) {
-        meaning.sense = Sense::clock;
-        stream.notes.push_back("times that go on from row to row: taken for a clock, frames are the steps between");
+    const bool may_be_clock = meaning.sense != Sense::frames && meaning.unit != Unit::fps;
+    const bool is_of_clock = may_be_clock && is_clock(stream.raw, meaning.sense);
+    if (is_of_clock != (meaning.sense == Sense::likely_clock)) {
+        stream.notes.push_back(is_of_clock ? "times that go on from row to row: taken for a clock, frames are the steps"
+                                           : "times that stand or run back: taken for frames, not for a clock");
     }
-    if (meaning.sense == Sense::clock) take_differences(stream.raw);
+    if (is_of_clock) take_differences(stream.raw);
     if (!meaning.unit) {
         meaning.unit = likely_unit(median_time(stream.raw));
         stream.notes.push_back("no unit told: taken for " + std::string(name_of(*meaning.unit)) +

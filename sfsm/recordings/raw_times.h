@@ -32,11 +32,13 @@ struct StreamFrames;
 // What a column is known to hold; what isn't told is decided from the rows.
 struct ColumnMeaning {
     std::optional<Unit> unit;
-    enum class Sense { frames, clock, to_be_found } sense = Sense::to_be_found;
+    enum class Sense { frames, likely_clock, to_be_found } sense = Sense::to_be_found;
 };
 
 // The raw times become frames. Not told, a unit is the one in which the median is most likely a frame's, and a sense is
-// that of a clock if times hardly ever stand or run back. Guesses become notes.
+// that of a clock if times hardly ever stand or run back; what is likely a clock is none if they do so in most rows
+// or go up and down in a small range.
+// Guesses become notes.
 void take_raw_times(StreamFrames& stream, ColumnMeaning meaning);
 
 }  // namespace sfsm

@@ -176,8 +176,9 @@ Recording read_recording(std::istream& in, const std::string& name, const Record
         recording = our_recording(lines);
         recording.chosen = choose(recording, name, options);
     } else {
-        recording =
-            to_recording(is_json(lines.head()) ? read_capframex_json(lines) : read_csv_recording(lines), name, options);
+        recording = to_recording(is_json(lines.head()) ? read_capframex_json(lines)
+                                                       : read_csv_recording(lines, {options.column, options.unit}),
+                                 name, options);
     }
     recording.notes.insert(recording.notes.end(), source.notes().begin(), source.notes().end());
     return recording;

@@ -1,13 +1,16 @@
 // A recorded run of any of the tools people use, as one of our traces: our own traces, PresentMon 1.x, 2.x and the
-// current console columns, OCAT, CapFrameX CSV and JSON, FrameView, MangoHud (per frame and sampled), FRAPS.
+// current console columns, OCAT, CapFrameX CSV and JSON, FrameView, MangoHud (per frame and sampled), FRAPS, MSI
+// Afterburner, Unreal's CSV profiler, and any table with a column of times.
 // docs/recordings.md lists what each one's columns become and how their quirks are read.
 #pragma once
 
 #include <cstdint>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "sfsm/recordings/raw_times.h"
 #include "sfsm/trace.h"
 
 namespace sfsm {
@@ -43,6 +46,11 @@ struct RecordingOptions {
 
     // One swap chain alone, not joined with those before and after it. Empty: as `process` says.
     std::string swap_chain = {};
+
+    // Of a table the column that has the times: its name in any case, or its number from 1 where columns have no names.
+    // Empty: as the format says. Its unit where neither the name nor the format tells it; nothing: guessed.
+    std::string column = {};
+    std::optional<Unit> unit = {};
 };
 
 // The file may be packed by gzip, and be UTF-16. Reads in pieces: memory grows with the frames, not with the bytes.

@@ -67,8 +67,8 @@ TEST_F(ReplayProgram, HelpAndVersionSucceed) {
     const Outcome help = replay("--help"), version = replay("--version");
     EXPECT_EQ(help.code, 0);
     for (const char* word :
-         {"--verify", "--explain FRAME", "--fit", "--open-loop", "--delay", "--process", "--swap-chain", "--target-ms",
-          "--csv", "--json", "--report", "--svg", "--law", "Examples:"}) {
+         {"--verify", "--explain FRAME", "--fit", "--open-loop", "--delay", "--process", "--swap-chain", "--column",
+          "--unit", "--target-ms", "--csv", "--json", "--report", "--svg", "--law", "Examples:"}) {
         EXPECT_NE(help.out.find(word), std::string::npos) << word;
     }
     EXPECT_EQ(version.code, 0);
@@ -85,6 +85,7 @@ TEST_F(ReplayProgram, UsageErrorsAreOneLineAndCode2) {
         {trace + " --target-ms nan", "nan"},
         {trace + " --target-ms 10,5@3,4@2", "expected a frame"},
         {trace + " --delay 17", "--delay"},
+        {trace + " --unit parsec", "--unit"},
         {trace + " --delay -1", "--delay"},
         {trace + " --csv - --json -", "stdout"},
         {trace + " --report - --svg -", "stdout"},
@@ -441,6 +442,17 @@ TEST_F(ReplayProgram, ReadsStandardInput) {
     figures.erase("recording");
     of_file.erase("recording");
     EXPECT_EQ(figures, of_file);
+}
+
+TEST_F(ReplayProgram, TakesAColumnThatIsNamed) {
+    std::ofstream(in_folder("bench.csv")) << "scene,GPU frame\na,8000\nb,8200\nc,8100\n";
+    const Outcome outcome = replay(in_folder("bench.csv") + " --column 'gpu frame' --unit us --open-loop --json -");
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NEAR(json::parse(outcome.out).at("recorded").at("mean_ms").get<double>(), 8.1, 1e-9);
+    const Outcome unnamed = replay(in_folder("bench.csv"));
+    EXPECT_EQ(unnamed.code, 1);
+    EXPECT_NE(unnamed.err.find("found columns 'GPU frame', expected one of them named as --column"), std::string::npos)
+        << unnamed.err;
 }
 
 TEST_F(ReplayProgram, FramesAreCountedAlikeEverywhere) {

@@ -27,9 +27,19 @@ std::vector<std::string> all_texts() {
     Table capframex = presentmon_1(), quoted = presentmon_2();
     capframex.preamble = {"//GPU=a", "//OS=b"};
     for (std::vector<std::string>& row : quoted.rows) row[0] = "\"a, \"\"b\"\"\"";
-    return {presentmon_1().text(), presentmon_2().text(), presentmon_current().text(),
-            mangohud().text(),     fraps().text(),        capframex.text(),
-            quoted.text(),         json_recording(),      our_trace()};
+    return {presentmon_1().text(),
+            presentmon_2().text(),
+            presentmon_current().text(),
+            mangohud().text(),
+            fraps().text(),
+            capframex.text(),
+            quoted.text(),
+            json_recording(),
+            our_trace(),
+            afterburner({"16.1", "N/A", "16.3"}),
+            unreal({"8.5", "9.5"}),
+            "10.5\n11.5\n9\n",
+            "frame,time\n1,16\n2,17\n3,16\n"};
 }
 
 bool same(double a, double b) {

@@ -450,7 +450,7 @@ TEST(Quirks, RubbishIsRefusedByItsLine) {
     };
     const std::string header = "Application,MsBetweenPresents,Dropped\n", row = "a,16,0\n";
     const Bad bads[] = {
-        {"", "r.csv:1: found an empty file, expected one of our own traces, CapFrameX CSV, FrameView, OCAT"},
+        {"", "r.csv:1: found an empty file, expected one of our own traces, PresentMon, CapFrameX"},
         {" \r\n\n", "r.csv:1: found an empty file"},
         {"\n\nhello\nworld\n", "r.csv:3: found no header but 'hello', expected one of our own traces"},
         {"# law=paper\n//GPU=1\nhello\nworld\n", "r.csv:3: found no header but 'hello'"},
@@ -458,7 +458,8 @@ TEST(Quirks, RubbishIsRefusedByItsLine) {
         {"\x1b[31m\x07" + std::string(100, 'x'), "found no header but '?[31m?xxx"},
         {header, "r.csv:1: found no row behind the header of PresentMon 1.x, expected at least one"},
         {"Frame, Time (ms)\n1, 0\n", "found no frame of FRAPS"},
-        {"0.1% Min FPS,1% Min FPS,Average FPS\n10,20,30\n", "found no header but '0.1% Min FPS"},
+        {"0.1% Min FPS,1% Min FPS,Average FPS\n10,20,30\n",
+         "found columns '0.1% Min FPS', '1% Min FPS', 'Average FPS', expected one of them named as --column"},
         {"MsBetweenPresents,Application,msbetweenpresents\n", "r.csv:1: found two columns 'MsBetweenPresents'"},
         {header + row + "a,16\n", "r.csv:3: found 2 fields, expected 3 or more"},
         {header + row + "a,sixteen,0\n", "r.csv:3: MsBetweenPresents is 'sixteen', expected a number or NA"},

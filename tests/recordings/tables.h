@@ -117,4 +117,24 @@ inline Table fraps() {
     return table;
 }
 
+// As Afterburner writes them, a row a second; `frametimes` in milliseconds.
+inline std::string afterburner(const std::vector<std::string>& frametimes) {
+    const std::string day = ", 01-01-2026 00:00:0";
+    std::string text = "00" + day + "0, Hardware monitoring log v1.6 \n01" + day + "0, GeForce RTX\n02" + day +
+                       "0, GPU usage           ,Framerate           ,Frametime           \n03" + day +
+                       "0, 0                   ,100                 ,                    \n";
+    for (std::size_t i = 0; i < frametimes.size(); ++i) {
+        text += "80" + day + std::to_string(i % 10) + ", 95.000              ,60.000              ," + frametimes[i] +
+                "              \n";
+    }
+    return text;
+}
+
+inline std::string unreal(const std::vector<std::string>& frametimes) {
+    const std::string header = "EVENTS,FrameTime,GameThreadTime,RenderThreadTime,GPUTime\n";
+    std::string text = header;
+    for (const std::string& ms : frametimes) text += "," + ms + ",5.1,4.2,3.1\n";
+    return text + header + "[HasHeaderRowAtEnd],1,[Platform],Windows,[Commandline],\"C:\\Users\\x\"\n";
+}
+
 }  // namespace sfsm
