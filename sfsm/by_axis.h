@@ -27,6 +27,8 @@ public:
     void retarget() { ceiling_.forget(); }
 
 private:
+    static constexpr int longest_reach_wait = 256;  // [decisions] between tests of less detail out of reach
+
     struct Drawn {
         Decision decision;
         double detail = 1;
@@ -63,7 +65,7 @@ private:
     Ceiling ceiling_;
     Drift drift_;
     Heard newest_;
-    Retest reach_retest_{256}, cap_retest_{longest_cap_wait};
+    Retest reach_retest_{longest_reach_wait}, cap_retest_{longest_cap_wait};
     double detail_ = 1;
     std::array<Drawn, 16> drawn_{};  // the newest decisions; L may have moved since, so each with its detail
     std::size_t drawn_count_ = 0;
