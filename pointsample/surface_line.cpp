@@ -35,10 +35,18 @@ std::uint64_t hilbert(std::array<std::uint32_t, 3> x) {
     return key;
 }
 
+// The key in halves, as there is one for each triangle: whole, it would make 16 bytes of 12.
 struct Keyed {
-    std::uint64_t key;
+    std::uint32_t high, low;
     std::uint32_t triangle;
+
+    std::uint64_t key() const { return std::uint64_t{high} << 32 | low; }
 };
+
+Keyed keyed_by(std::uint64_t key, std::size_t triangle) {
+    return {static_cast<std::uint32_t>(key >> 32), static_cast<std::uint32_t>(key),
+            static_cast<std::uint32_t>(triangle)};
+}
 
 // Stable, by key.
 void radix_sort(std::vector<Keyed>& keyed) {
@@ -48,7 +56,7 @@ void radix_sort(std::vector<Keyed>& keyed) {
     for (int shift = 0; shift < 3 * bits; shift += digit) {
         std::array<std::size_t, digits + 1> start{};
         const auto digit_of = [shift](const Keyed& k) {
-            return static_cast<std::size_t>(k.key >> shift & (digits - 1));
+            return static_cast<std::size_t>(k.key() >> shift & (digits - 1));
         };
         for (const Keyed& k : keyed) ++start[digit_of(k) + 1];
         for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
@@ -74,7 +82,7 @@ std::vector<std::uint32_t> order_along_line(const Surface& surface) {
     std::vector<Keyed> keyed;
     keyed.reserve(surface.triangle_count());
     for (std::size_t i = 0; i < surface.triangle_count(); ++i)
-        if (surface.first_area(i) > 0) keyed.push_back({key_of(surface, i), static_cast<std::uint32_t>(i)});
+        if (surface.first_area(i) > 0) keyed.push_back(keyed_by(key_of(surface, i), i));
     radix_sort(keyed);
     std::vector<std::uint32_t> triangles;
     triangles.reserve(keyed.size());
