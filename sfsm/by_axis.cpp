@@ -46,7 +46,12 @@ void AxisLaw::observe(const FrameSample& sample) {
 // A load that drifts is no price: detail goes down as it grows, so that times would tell that detail costs nothing. So
 // the model is told times as they would be at the load that it knows.
 double AxisLaw::ms_of_known_load(const FrameSample& sample, const Amounts& amounts, double detail) {
-    if (!costs_.is_ready() || is_out_of_reach() || refresh_.is_waiting()) return sample.ms;
+    if (!costs_.is_ready()) return sample.ms;
+    if (is_out_of_reach() || refresh_.is_waiting()) {
+        drift_ = {};
+        newest_ = {};
+        return sample.ms;
+    }
     // By how much the load differs from the newest frame's, whatever has been learned of prices since.
     const double residual = std::log(sample.ms) - costs_.predict(amounts).log_ms;
     if (newest_.ms > 0) newest_.log_load += residual - log_over_model(newest_);
@@ -141,7 +146,7 @@ void AxisLaw::turn() {
 
 // Every frame at the detail that meets the aim under the load that is due then.
 void AxisLaw::follow(std::int64_t frame) {
-    const double ahead = std::clamp(static_cast<double>(frame - newest_.frame), 1.0, most_ahead);
+    const double ahead = std::clamp(static_cast<double>(frame) - static_cast<double>(newest_.frame), 1.0, most_ahead);
     const double log_load = drift_.ahead(ahead) - newest_.log_load + log_over_model(newest_);
     const auto predict = [&](double detail) {
         Prediction prediction = costs_.predict(amounts_of(detail));
@@ -183,9 +188,9 @@ void AxisLaw::turn_out_of_reach(double detail, double over_aim) {
     if (detail > detail_ || over_aim > 1 + out_of_reach_band) detail_ = detail;
 }
 
-// Times of frames that wait don't tell how the load drifts.
+// Times of frames that wait, or are out of reach, don't tell how the load drifts.
 bool AxisLaw::is_following() const {
-    return drift_.is_on() && !refresh_.is_waiting();
+    return drift_.is_on() && !refresh_.is_waiting() && !is_out_of_reach();
 }
 
 bool AxisLaw::is_out_of_reach() const {

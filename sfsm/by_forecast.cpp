@@ -151,6 +151,7 @@ Plan ForecastLaw::surely_fitting(const Plans& plans, const Plan& best, double le
 void ForecastLaw::probe(const Plans& plans) {
     if (cap_retest_.step(aim_.is_capped(model_.refresh()), model_.costs().shifts())) {
         const Plan less = plans.least_loss(model_.foreseen_prices(), retested_share * aim_.status.predicted_ms);
+        if (plans.decision_of(less) == kept_) return;
         aim_.status.reason = reason_to_test_cap;
         return draw_probe(plans, less);
     }

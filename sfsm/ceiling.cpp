@@ -59,11 +59,16 @@ void Ceiling::step(double ms_at_floor, double to_spare) {
     const bool is_hurrying = to_spare > much_to_spare && patience_ <= hopeless;
     wait_ = std::max(wait_ - (is_hurrying ? hurry : 1), 0);
     if (lasts_ == 0) return;
-    if (since_failure_ == trial && ms_at_floor < fallen * floor_ms_) return forget();
+    if (since_failure_ == trial && ms_at_floor < fallen * floor_ms_) return drop();
     if (--lasts_ == 0) lift();
 }
 
 void Ceiling::forget() {
+    drop();
+    age_ = trial + 1;
+}
+
+void Ceiling::drop() {
     lift();
     suspect_ = 0;
 }

@@ -36,9 +36,11 @@ public:
     bool is_set() const { return ceiling_ <= 1; }
     double detail() const { return ceiling_; }  // means nothing before is_set()
 
+    // Another target, or a load that is followed: no rise so far has failed by that.
     void forget();
 
 private:
+    void drop();
     void lift();
 
     double from_ = 0, to_ = 0;  // the last rise

@@ -100,7 +100,7 @@ private:
     double noise_ = 0;                          // 1 sigma of the differences of neighbours / sqrt(2)
     double last_residual_ = 0;
     int strange_ = 0;    // times in a row that were absurdly off
-    int residuals_ = 0;  // that told of the noise so far; counts to a few hundred
+    int residuals_ = 0;  // that told of the noise so far; counts to a thousand
     std::int64_t samples_ = 0;
     std::int64_t shifts_ = 0;
     double left_log_gain_ = 0, left_variance_ = -1;  // of the level before the last shift; < 0: there was none

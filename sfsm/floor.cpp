@@ -49,7 +49,7 @@ void Floor::observe(double ms, double log_step, double target_ms) {
     next_ = (next_ + 1) % history;
     count_ = std::min(count_ + 1, history);
     if (is_found()) follow(ms);
-    if (is_exact(ms, target_ms) && !is_found()) {
+    if (is_exact(ms, target_ms) && !is_found() && wait_ == 0) {
         take({target_ms, 0});
         scores_[0] = surely;
     }

@@ -44,8 +44,9 @@ bool Foresight::learn_factors(const Amounts& foreseen, const Amounts& drawn, con
         const double before = std::exchange(surprise_[i], surprise);
         const bool is_wild = std::min(std::abs(surprise), std::abs(before)) > most_surprise;
         if (!is_wild || std::abs(surprise - before) > alike) continue;
-        factor_[i] = std::clamp(drawn.of[i] / foreseen.of[i], 1 / most_factor, most_factor);
-        has_changed = true;
+        const double factor = std::clamp(drawn.of[i] / foreseen.of[i], 1 / most_factor, most_factor);
+        has_changed = has_changed || factor != factor_[i];
+        factor_[i] = factor;
     }
     return has_changed;
 }

@@ -455,6 +455,7 @@ void SafeguardedLaw::retarget(double target_ms) {
     memory_.target = std::log(target_ms);
     memory_.wait = 0;
     memory_.top = {};
+    memory_.is_doubted = memory_.is_trial = false;
     forget_bracket(memory_);
     end_hold(memory_, constants_.hold);
     is_new_ = true;

@@ -53,7 +53,7 @@ struct Status : Beliefs {
     std::int64_t bad_samples = 0;  // NaN, infinite, zero or negative times: counted and ignored
     const char* reason = "start";  // why the decision is what it is: static string
     std::int64_t kept_for = 0;     // decisions since that reason was found; 0: it is this one's
-    bool is_probe = false;         // a single frame to learn from; after it comes again what is kept
+    bool is_probe = false;         // to learn from, for a frame or three; after that comes again what is kept
 };
 
 }  // namespace sfsm

@@ -20,7 +20,7 @@ void append_line(std::string& text, std::string_view name, const std::string& wo
 
 std::string reason_text(const Status& status) {
     std::string text = status.reason;
-    if (status.is_probe) return text + "; this frame alone";
+    if (status.is_probe) return text + "; to learn from";
     if (status.kept_for <= 0) return text;
     return text + "; kept since, for " + std::to_string(status.kept_for) +
            (status.kept_for == 1 ? " frame" : " frames");

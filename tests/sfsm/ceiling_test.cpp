@@ -208,6 +208,15 @@ TEST(Ceiling, LoadIsComparedWithThatOfTheRiseThatFailed) {
     EXPECT_FALSE(is_there(ceiling)) << "at once, though the last rise is still on trial";
 }
 
+// A slow frame under a new target is no failed rise.
+TEST(Ceiling, ForgettingEndsTheTrialOfARise) {
+    Ceiling ceiling;
+    ceiling.rise(0.3, 0.5, ms);
+    ceiling.forget();
+    EXPECT_EQ(ceiling.fall(0.5, 0.1), 0.1);
+    EXPECT_EQ(ceiling.rise(0.1, 0.9, ms), 0.9);
+}
+
 TEST(Ceiling, ForgettingEndsTheWaitAndItsGrowth) {
     Ceiling ceiling;
     ceiling.rise(0.4, 0.8, ms);

@@ -109,6 +109,13 @@ TEST_F(ForesightOf, AllFramesIsEightfoldAtMost) {
     }
 }
 
+// What a factor may not make up for is left to the mean of all.
+TEST_F(ForesightOf, AKindBeyondEightfoldLeavesTheRestToTheBias) {
+    for (int i = 0; i < 100; ++i) draw({{2, 3 * 20, 5}, 3});
+    EXPECT_NEAR(foresight_.factor(1), 8, rounding);
+    EXPECT_GT(foresight_.bias(), 0.25);
+}
+
 TEST_F(ForesightOf, EachKindIsItsOwn) {
     const Amounts drawn = {{2, 3 * 2, 5 * 0.5}, 3};
     const Amounts more = {{2, 3 * 4, 5 * 1.5}, 3};

@@ -114,7 +114,7 @@ struct ProbeCount {
     void look(const Status& status) {
         if (status.is_probe) {
             ++probes;
-            EXPECT_NE(status_text(status).find("this frame alone"), std::string::npos);
+            EXPECT_NE(status_text(status).find("to learn from"), std::string::npos);
         } else {
             if (was_probe && status.kept_for > 0) {
                 EXPECT_EQ(status.decision, kept);
