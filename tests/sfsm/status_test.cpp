@@ -93,7 +93,7 @@ TEST(Status, AReasonIsKeptAsLongAsItsDecision) {
         },
         [&](std::int64_t frame, const Status& status) {
             if (frame == 0) {
-                EXPECT_EQ(status.reason, reason_to_guess);
+                EXPECT_STREQ(status.reason, reason_to_guess);
             } else if (status.kept_for > 0) {
                 EXPECT_EQ(status.decision, before) << frame;
                 EXPECT_EQ(status.kept_for, kept + 1) << frame;
