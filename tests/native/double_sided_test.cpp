@@ -11,6 +11,7 @@
 #include "figures/way.h"
 #include "pointsample/sample.h"
 #include "render/native/renderer.h"
+#include "tests/native/lone_person.h"
 #include "tests/render/stiff_mesh.h"
 
 namespace {
@@ -111,20 +112,7 @@ private:
         const glm::dvec3 eye = middle + distance * glm::dvec3(std::sin(azimuth), 0.1, std::cos(azimuth));
         const render::View view =
             render::make_view({eye, middle, 2 * std::atan(0.5 * side / (scale * distance))}, side, side);
-        render::Person person{};
-        person.instance.position = view.relative(glm::vec3(0));
-        person.instance.scale = 1;
-        person.instance.turn.cos_yaw = 32767;
-        person.depth = view.depth(person.instance.position);
-        person.last_share = 1;
-        person.count = static_cast<std::uint32_t>(points);
-        const auto all = figures::natively().representations;
-        const auto is_wanted = [&](const figures::Representation& one) { return one.is_mesh == (points == 0); };
-        person.representation = static_cast<std::uint32_t>(std::ranges::find_if(all, is_wanted) - all.begin());
-        render::Frame frame;
-        frame.view = view;
-        frame.splat_size = 1;
-        frame.people.push_back(person);
+        const render::Frame frame = tests::frame_of_one(view, static_cast<std::size_t>(points));
         renderer_.begin(view);
         renderer_.draw(frame);
         double sum = 0;

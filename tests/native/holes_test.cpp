@@ -10,6 +10,7 @@
 #include "figures/way.h"
 #include "pointsample/sample.h"
 #include "render/native/renderer.h"
+#include "tests/native/lone_person.h"
 #include "tests/render/stiff_mesh.h"
 
 namespace {
@@ -101,20 +102,8 @@ private:
                                 std::cos(azimuth) * std::cos(elevation));
         const double fov = 2 * std::atan(0.5 * side / (pixels_a_metre * distance));
         const render::View view = render::make_view({middle + distance * to_eye, middle, fov}, side, side);
-        render::Person person{};
-        person.instance.position = view.relative(glm::vec3(0));
-        person.instance.scale = 1;
-        person.instance.turn.cos_yaw = 32767;
-        person.depth = view.depth(person.instance.position);
-        person.last_share = 1;
-        person.count = as_mesh ? 0 : static_cast<std::uint32_t>(poses_.point_count);
-        const auto all = figures::natively().representations;
-        const auto is_wanted = [&](const figures::Representation& one) { return one.is_mesh == as_mesh; };
-        person.representation = static_cast<std::uint32_t>(std::ranges::find_if(all, is_wanted) - all.begin());
-        render::Frame frame;
-        frame.view = view;
-        frame.splat_size = 1;
-        frame.people.push_back(person);
+        const render::Frame frame =
+            tests::frame_of_one(view, as_mesh ? 0 : static_cast<std::size_t>(poses_.point_count));
         renderer_.begin(view);
         renderer_.draw(frame);
         const render::Image image = renderer_.read_image();
