@@ -91,7 +91,7 @@ TextureLayers::TextureLayers(std::span<const model::Texture> textures) {
 }
 
 std::uint32_t PersonMesh::behind() const {
-    return double_sided ? (vertex_count + group - 1) / group * group : 0;
+    return double_sided ? static_cast<std::uint32_t>(in_groups(vertex_count)) : 0;
 }
 
 PersonMesh::PersonMesh(const figures::Figure& figure)
@@ -112,7 +112,7 @@ PersonMesh::PersonMesh(const figures::Figure& figure)
         for (int corner = 0; corner < 3; ++corner)
             corners[corner].push_back(static_cast<std::int32_t>(faces.back().corners[corner]));
     }
-    for (auto& list : corners) list.resize((list.size() + group - 1) / group * group);
+    for (auto& list : corners) list.resize(in_groups(list.size()));
     for (std::uint32_t v = 0; v < vertex_count; ++v)
         if (mesh.material_of(v).unlit) unlit.push_back(v);
     if (model::has_cutouts(mesh))

@@ -108,10 +108,6 @@ Rect pixels_of(const View& view, const Extent& extent) {
     return pixels.empty() ? Rect{} : pixels;
 }
 
-std::size_t in_groups(std::size_t count) {
-    return (count + group - 1) / group * group;
-}
-
 // With those seen from behind.
 std::size_t lit_vertices(const PersonMesh& mesh) {
     return (mesh.double_sided ? 2 : 1) * in_groups(mesh.vertex_count);

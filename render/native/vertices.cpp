@@ -63,7 +63,6 @@ struct Bounds {
     VFloat nearest;
 };
 
-// One group, a vector at a time.
 // Linear.
 hn::Vec<Floats> light_on(const Vector3& normal, const Vector3& to_sun, const Daylight& daylight, int c) {
     const Floats f;
@@ -72,7 +71,7 @@ hn::Vec<Floats> light_on(const Vector3& normal, const Vector3& to_sun, const Day
     return hn::Add(around, hn::Mul(facing_sun, hn::Set(f, daylight.sun[c])));
 }
 
-// `behind`: the same from behind; null: not wanted.
+// One group, a vector at a time. `behind`: the same from behind; null: not wanted.
 void place_group(const Placement& placement, const Daylight& daylight, const std::uint32_t* posed, LitVertex* lit,
                  LitVertex* behind, std::int32_t* across, std::int32_t* down, Bounds& bounds) {
     const Floats f;
@@ -114,7 +113,7 @@ Extent place_all(const Placement& placement, const Daylight& daylight, std::span
                  bool double_sided, LitVertex* lit, std::int32_t* across, std::int32_t* down) {
     const Ints i;
     const auto most = hn::Set(i, INT32_MAX), least = hn::Set(i, INT32_MIN);
-    LitVertex* behind = lit + (posed.size() + group - 1) / group * group;
+    LitVertex* behind = lit + in_groups(posed.size());
     Bounds bounds{most, most, least, least, hn::Zero(Floats())};
     for (std::size_t first = 0; first < posed.size(); first += group) {
         // The last group is filled up with its last vertex.

@@ -2,6 +2,7 @@
 // face the viewer.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -12,6 +13,10 @@ namespace render::native {
 inline constexpr int group = 16;             // vertices or triangles that are worked on together
 inline constexpr int grid_per_sample = 16;   // the grid that vertices are snapped to: this many steps a sample
 inline constexpr int reach_on_grid = 32000;  // who is wider or higher [grid steps] isn't drawn by 32-bit edges
+
+constexpr std::size_t in_groups(std::size_t count) {  // room for whole ones
+    return (count + group - 1) / group * group;
+}
 
 // One affine form of a vertex' packed position (x, y, z as they are stored).
 struct Form {
