@@ -11,13 +11,6 @@ constexpr double most_frames_of_all = 20'000'000;
 constexpr double ns_per_ms = 1e6;
 constexpr double ms_by_fps = 1e3, us_by_fps = 1e6;  // a frame's time times its fps
 
-double median(std::vector<double> values) {
-    if (values.empty()) return std::nan("");
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 // In which unit the times are the inverse of the fps; where no row tells fps, in which the median is under a second.
 Unit unit_of(const std::vector<RawTime>& raw) {
     std::vector<double> products, times;

@@ -88,17 +88,14 @@ double median_time(const std::vector<RawTime>& raw) {
     for (const RawTime& row : raw) {
         if (row.time > 0) times.push_back(row.time);
     }
-    if (times.empty()) return 0;
-    const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
-    std::nth_element(times.begin(), middle, times.end());
-    return *middle;
+    return median(std::move(times));
 }
 
-// The unit in which it is between a quarter of a millisecond and a second.
+// The unit in which it is between a quarter of a millisecond and a second; of no time milliseconds.
 Unit likely_unit(double time) {
     constexpr double shortest_ms = 0.25, longest_ms = 1000;
     if (time > 0 && time < shortest_ms) return Unit::s;
-    if (time <= longest_ms) return Unit::ms;
+    if (!(time > longest_ms)) return Unit::ms;
     return time <= 1000 * longest_ms ? Unit::us : Unit::ns;
 }
 
@@ -116,6 +113,13 @@ std::string_view name_of(Unit unit) {
         if (known == unit) return name;
     }
     return {};
+}
+
+double median(std::vector<double> values) {
+    if (values.empty()) return std::nan("");
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
 }
 
 double in_milliseconds(double time, Unit unit) {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 namespace sfsm {
 
@@ -17,6 +18,9 @@ std::string_view name_of(Unit unit);
 
 // [ms]
 double in_milliseconds(double time, Unit unit);
+
+// Of two in the middle the greater; NaN of none.
+double median(std::vector<double> values);
 
 // A row whose time can't be told before all are known.
 struct RawTime {
