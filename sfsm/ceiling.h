@@ -8,14 +8,12 @@ namespace sfsm {
 // For details in [0, 1] and predicted times.
 // - A rise is on trial for 24 decisions. If it turns out slow, its detail becomes the ceiling.
 // - The law then falls to the detail it now predicts to fit, at most back to where the rise began, and for six
-// decisions
-//   no lower: until a few times are heard from there, what the failure taught is believed of all details. If that is
-//   slow too, it falls at least half the way back.
+//   decisions no lower: until a few times are heard from there, what the failure taught is believed of all details. If
+//   that is slow too, it falls at least half the way back.
 // - Below a ceiling a rise goes only half the way up to it. The wait before the next rise doubles with each failure; it
 //   passes eight times as fast while a tenth of the time is to spare, until a few rises in a row have failed.
-// - A ceiling lasts 64 decisions, as a few slow frames may have made it by chance. One that the next rise confirms,
-// from
-//   below it, lasts 1024.
+// - A ceiling lasts 64 decisions, as a few slow frames may have made it by chance. One that the next rise
+//   confirms, from below it, lasts 1024.
 // - It is forgotten when the load has fallen: when the floor, where the rise began that made it, takes 15 % less than
 //   then. What it took is the most that is predicted for it before the rise and from ten to 24 decisions after the
 //   failure; sooner, predictions are of no use.

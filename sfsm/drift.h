@@ -6,10 +6,9 @@ namespace sfsm {
 
 // An alpha-beta filter (Benedict and Bordner 1962) tracks the logarithm of the load: its level and its slope. It
 // forgets as fast as the swings it has seen ask for, and faster while times are off to one side.
-// - The load drifts when the level has swung from one side of its slow mean to the other and back, wanders by 6 % about
-// it,
-//   and detail goes down as it grows; no more when it wanders by less than half of that. So noise that remembers is no
-//   drift, nor is a ramp; and times that grow with detail tell of its price.
+// - The load drifts when the level has swung from one side of its slow mean to the other and back, wanders by 6 %
+//   about it, and detail goes down as it grows; no more when it wanders by less than half of that. So noise that
+//   remembers is no drift, nor is a ramp; and times that grow with detail tell of its price.
 // - Jumps are no drift: where two times in a row are off alike, and by much, it begins anew.
 // - A single time that is off by much is an outlier, and is left out.
 class Drift {

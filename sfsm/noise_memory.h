@@ -9,8 +9,8 @@ namespace sfsm {
 // that.
 class NoiseMemory {
 public:
-    // By how much a frame's ln(time / prediction) differs from that of the frame before. `noise`: 1 sigma, > 0, of
-    // most.
+    // By how much a frame's ln(time / prediction) differs from that of the frame before. `noise`: 1 sigma of most
+    // frames, > 0.
     void add(double difference, double noise);
 
     // In [0, 0.92]; 0 while it isn't sure that there is any, and where times are exact to 0.3 %.
