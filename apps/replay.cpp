@@ -102,10 +102,10 @@ struct Outputs {
     }
 };
 
-std::string frames_text(const std::vector<sfsm::TraceRow>& rows) {
+std::string frames_text(const std::vector<sfsm::FrameRecord>& frames) {
     const auto without =
-        std::count_if(rows.begin(), rows.end(), [](const auto& row) { return std::isnan(row.frame_ms); });
-    const std::string text = std::to_string(std::ssize(rows) - without) + " frames";
+        std::count_if(frames.begin(), frames.end(), [](const auto& frame) { return std::isnan(frame.frame_ms); });
+    const std::string text = std::to_string(std::ssize(frames) - without) + " frames";
     return without == 0 ? text : text + " and " + std::to_string(without) + " without a time";
 }
 
@@ -137,8 +137,8 @@ void replay(const ReplayOptions& options) {
     outputs.commit();
     for (const std::string* path : {&options.json, &options.csv, &options.report, &options.svg})
         if (*path == "-") return;
-    std::cout << options.trace << ": " << session.recording.format << ", " << frames_text(recorded.rows) << ", "
-              << (session.course ? "closed" : "open") << " loop, delay " << session.delay << ", target "
+    std::cout << options.trace << ": " << session.recording.format << ", " << frames_text(session.recording.frames)
+              << ", " << (session.course ? "closed" : "open") << " loop, delay " << session.delay << ", target "
               << session.recording.trace.settings.at("target_ms") << " ms\n";
     write_scores(std::cout, report.runs);
 }

@@ -7,21 +7,30 @@
 #include <string>
 #include <vector>
 
+#include "sfsm/replay.h"
 #include "sfsm/simulate/metrics.h"
 #include "sfsm/simulate/scorecard.h"
 #include "sfsm/trace.h"
 
 namespace apps {
 
-// What became of the recording under a law. Rows are without forecasts: of a million frames they would fill the memory.
+// What became of a frame. No more than that: there may be a million, of several laws.
+struct RerunFrame {
+    double target_ms = 0;
+    double frame_ms = 0;      // NaN: not measured
+    double predicted_ms = 0;  // NaN: the law can't say
+    sfsm::Decision decision;
+};
+
+// What became of the recording under a law.
 struct Rerun {
     std::string law;
-    std::vector<sfsm::TraceRow> rows;
+    std::vector<RerunFrame> frames;
     std::optional<sfsm::simulate::Metrics> metrics;  // of a closed loop
 };
 
 // Each recorded time is taken for the time of the law's own decision. `law` is none that looks ahead.
-Rerun rerun_open(const sfsm::simulate::Contestant& law, const std::vector<sfsm::TraceRow>& recorded, int delay,
+Rerun rerun_open(const sfsm::simulate::Contestant& law, const sfsm::RunRows& recorded, int delay,
                  sfsm::Drawing drawing);
 
 // A law that is to decide without a course.
@@ -29,11 +38,7 @@ std::unique_ptr<sfsm::Controller> make_law(const sfsm::simulate::Contestant& law
 
 Rerun rerun_closed(const sfsm::simulate::Contestant& law, const sfsm::simulate::Course& course);
 
-// A frame of a closed loop as a trace has it, without its forecast.
-sfsm::TraceRow trace_row(const sfsm::simulate::Plant& plant, std::int64_t frame,
-                         const sfsm::simulate::Outcome& outcome);
-
-// Gives a row the forecast that the plant gave before it; none leaves it without.
-void add_forecast(sfsm::TraceRow& row, const sfsm::simulate::Plant& plant);
+// A frame of a closed loop as a trace has it, with the forecast that the plant gave before it.
+sfsm::TraceRow trace_row(const sfsm::simulate::Plant& plant, std::int64_t frame, const RerunFrame& rerun);
 
 }  // namespace apps

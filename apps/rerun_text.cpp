@@ -18,11 +18,11 @@ using Json = nlohmann::ordered_json;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 // How often, in a thousand frames, a decision isn't the one before.
-double changes_per_1000(const std::vector<sfsm::TraceRow>& rows) {
-    if (rows.size() < 2) return unknown;
+double changes_per_1000(const std::vector<RerunFrame>& frames) {
+    if (frames.size() < 2) return unknown;
     std::int64_t changes = 0;
-    for (std::size_t i = 1; i < rows.size(); ++i) changes += rows[i].decision != rows[i - 1].decision;
-    return 1000.0 * static_cast<double>(changes) / static_cast<double>(rows.size() - 1);
+    for (std::size_t i = 1; i < frames.size(); ++i) changes += frames[i].decision != frames[i - 1].decision;
+    return 1000.0 * static_cast<double>(changes) / static_cast<double>(frames.size() - 1);
 }
 
 // A miss that no frame could have is none that was avoided: NaN where nothing was judged, or less than a second.
@@ -42,7 +42,7 @@ void add_metrics(std::vector<sfsm::Score>& scores, const Rerun& rerun) {
     scores.push_back({"detail of the best", "%", quality, 1, Better::more});
     scores.push_back({"worst second over by 5 %", "%", 100 * metrics.worst_second, 1, Better::less});
     scores.push_back({"late", "ms/s", metrics.hitch_ms_per_s, 1, Better::less});
-    scores.push_back({"changes", "/1000", changes_per_1000(rerun.rows), 0, Better::less});
+    scores.push_back({"changes", "/1000", changes_per_1000(rerun.frames), 0, Better::less});
 }
 
 std::string value_text(const sfsm::Score& score) {
@@ -80,10 +80,22 @@ std::string percent(double share) {
     return text.str();
 }
 
+sfsm::ReportFrame report_frame(const RerunFrame& frame) {
+    sfsm::TraceRow row;
+    row.target_ms = frame.target_ms;
+    row.frame_ms = frame.frame_ms;
+    row.predicted_ms = frame.predicted_ms;
+    row.decision = frame.decision;
+    return sfsm::report_frame(row);
+}
+
 }  // namespace
 
 sfsm::ReportRun report_run(const Rerun& rerun) {
-    sfsm::ReportRun run = sfsm::report_run(rerun.law, rerun.rows);
+    sfsm::ReportRun run{rerun.law, {}, {}};
+    run.frames.reserve(rerun.frames.size());
+    for (const RerunFrame& frame : rerun.frames) run.frames.push_back(report_frame(frame));
+    run.scores = sfsm::time_scores(run.frames);
     add_metrics(run.scores, rerun);
     return run;
 }
@@ -112,7 +124,11 @@ void write_scores(std::ostream& out, std::span<const sfsm::ReportRun> runs) {
 }
 
 Json rerun_json(const Rerun& rerun) {
-    const sfsm::Summary summary = sfsm::summarize(rerun.rows);
+    std::vector<sfsm::FrameTime> times;
+    times.reserve(rerun.frames.size());
+    for (const RerunFrame& frame : rerun.frames)
+        times.push_back({frame.target_ms, frame.frame_ms, frame.decision.state});
+    const sfsm::Summary summary = sfsm::summarize_times(times);
     Json json;
     json["law"] = rerun.law;
     json["frames"] = summary.frames;
@@ -125,7 +141,7 @@ Json rerun_json(const Rerun& rerun) {
     json["within_10pct"] = number(summary.within_10pct);
     json["over_5pct"] = number(summary.over_5pct);
     json["state_frames"] = summary.state_frames;
-    json["changes_per_1000"] = number(changes_per_1000(rerun.rows));
+    json["changes_per_1000"] = number(changes_per_1000(rerun.frames));
     if (rerun.metrics) add_metrics(json, known(*rerun.metrics));
     return json;
 }

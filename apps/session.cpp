@@ -59,15 +59,19 @@ sfsm::Recording read(const std::string& path, const sfsm::RecordingOptions& opti
     return recording;
 }
 
-void set_targets(sfsm::Recording& recording, const std::string& asked) {
-    const sfsm::TargetSchedule targets =
-        sfsm::TargetSchedule::parse(asked.empty() ? sfsm::default_target : std::string_view(asked));
-    for (sfsm::TraceRow& row : recording.trace.rows) {
+void set_targets(Session& session, const std::string& asked) {
+    session.targets = sfsm::TargetSchedule::parse(asked.empty() ? sfsm::default_target : std::string_view(asked));
+    for (sfsm::TraceRow& row : session.recording.trace.rows) {
         if (!asked.empty() || !(std::isfinite(row.target_ms) && row.target_ms > 0))
-            row.target_ms = targets.at(row.frame);
+            row.target_ms = session.targets.at(row.frame);
     }
-    std::map<std::string, std::string>& settings = recording.trace.settings;
-    if (!asked.empty() || !settings.contains("target_ms")) settings["target_ms"] = targets.text();
+    std::map<std::string, std::string>& settings = session.recording.trace.settings;
+    if (!asked.empty() || !settings.contains("target_ms")) settings["target_ms"] = session.targets.text();
+}
+
+sim::Scenario scenario_of(const Session& session) {
+    if (!session.recording.has_work()) return sim::foreign_scenario(rows_of(session), session.delay);
+    return sim::recorded_scenario(session.recording.trace.rows, {session.delay, true, session.drawing});
 }
 
 // Those asked for; else the trace's, or of a recording that has none the default.
@@ -90,13 +94,9 @@ Session open_session(const ReplayOptions& options) {
     session.delay = options.delay.value_or(has_work ? sfsm::trace_delay(session.recording.trace) : gpu_delay);
     if (has_work) session.drawing = sfsm::trace_drawing(session.recording.trace);
     session.laws = laws_for(options, session.recording);
-    set_targets(session.recording, options.target_ms);
-    if (!options.open_loop) {
-        session.course = made_of(options.trace, [&] {
-            return sim::make_course(
-                sim::recorded_scenario(session.recording.trace.rows, {session.delay, has_work, session.drawing}));
-        });
-    }
+    set_targets(session, options.target_ms);
+    if (!options.open_loop)
+        session.course = made_of(options.trace, [&] { return sim::make_course(scenario_of(session)); });
     return session;
 }
 
@@ -119,18 +119,34 @@ sim::Contestant law_of(const sfsm::Trace& trace, bool may_need_course) {
     return *law;
 }
 
+sfsm::RunRows rows_of(const Session& session) {
+    if (session.recording.has_work()) return sfsm::run_rows(session.recording.trace.rows);
+    return {session.recording.frames.size(),
+            [&session, row = sfsm::TraceRow()](std::size_t i) mutable -> const sfsm::TraceRow& {
+                const sfsm::FrameRecord& frame = session.recording.frames[i];
+                row.frame = static_cast<std::int64_t>(i);
+                row.target_ms = session.targets.at(row.frame);
+                row.frame_ms = frame.frame_ms;
+                row.cpu_ms = frame.cpu_ms;
+                row.gpu_ms = frame.gpu_ms;
+                return row;
+            }};
+}
+
 Rerun recorded_run(const Session& session) {
-    Rerun rerun{"recorded", session.recording.trace.rows, {}};
-    for (sfsm::TraceRow& row : rerun.rows) {
-        row.motion = row.shapes = {};
-        row.rates = {};
+    const sfsm::RunRows rows = rows_of(session);
+    Rerun rerun{"recorded", {}, {}};
+    rerun.frames.reserve(rows.count);
+    for (std::size_t i = 0; i < rows.count; ++i) {
+        const sfsm::TraceRow& row = rows.at(i);
+        rerun.frames.push_back({row.target_ms, row.frame_ms, row.predicted_ms, row.decision});
     }
     return rerun;
 }
 
 Rerun rerun(const Session& session, const sim::Contestant& law) {
     return session.course ? rerun_closed(law, *session.course)
-                          : rerun_open(law, session.recording.trace.rows, session.delay, session.drawing);
+                          : rerun_open(law, rows_of(session), session.delay, session.drawing);
 }
 
 std::vector<std::pair<std::string, std::string>> facts_of(const Session& session, const std::string& path) {
@@ -147,6 +163,28 @@ std::vector<std::pair<std::string, std::string>> facts_of(const Session& session
     return facts;
 }
 
+namespace {
+
+// What the recording has of a frame, and what the law decided.
+sfsm::TraceRow redecided(const sfsm::TraceRow& recorded, const RerunFrame& rerun) {
+    sfsm::TraceRow row;
+    row.frame = recorded.frame;
+    row.target_ms = recorded.target_ms;
+    row.frame_ms = recorded.frame_ms;
+    row.cpu_ms = recorded.cpu_ms;
+    row.gpu_ms = recorded.gpu_ms;
+    row.range = recorded.range;
+    row.work = recorded.work;
+    row.predicted_ms = rerun.predicted_ms;
+    row.decision = rerun.decision;
+    row.motion = recorded.motion;
+    row.shapes = recorded.shapes;
+    row.rates = recorded.rates;
+    return row;
+}
+
+}  // namespace
+
 void write_trace(std::ostream& out, const Session& session, const Rerun& rerun) {
     std::map<std::string, std::string> settings = session.recording.trace.settings;
     settings["law"] = rerun.law;
@@ -155,17 +193,12 @@ void write_trace(std::ostream& out, const Session& session, const Rerun& rerun) 
     settings["version"] = GRANDSTAND_VERSION;
     settings["replayed"] = session.course ? "closed loop" : "open loop";
     sfsm::write_trace_header(out, settings);
-    const std::vector<sfsm::TraceRow>& recorded = session.recording.trace.rows;
-    for (std::size_t i = 0; i < rerun.rows.size(); ++i) {
-        sfsm::TraceRow row = rerun.rows[i];
-        if (session.course) {
-            add_forecast(row, *session.course->scenario.plant);
-        } else {
-            row.motion = recorded[i].motion;
-            row.shapes = recorded[i].shapes;
-            row.rates = recorded[i].rates;
-        }
-        sfsm::write_trace_row(out, row);
+    const sfsm::RunRows recorded = rows_of(session);
+    for (std::size_t i = 0; i < rerun.frames.size(); ++i) {
+        const RerunFrame& frame = rerun.frames[i];
+        sfsm::write_trace_row(out, session.course
+                                       ? trace_row(*session.course->scenario.plant, static_cast<std::int64_t>(i), frame)
+                                       : redecided(recorded.at(i), frame));
     }
 }
 

@@ -13,12 +13,14 @@
 #include "sfsm/recordings/recording.h"
 #include "sfsm/simulate/course.h"
 #include "sfsm/simulate/scorecard.h"
+#include "sfsm/target.h"
 
 namespace apps {
 
 struct Session {
-    sfsm::Recording recording;
-    int delay = 0;  // [frames]
+    sfsm::Recording recording;     // of a trace of ours the rows have the targets of this session
+    sfsm::TargetSchedule targets;  // of any other recording
+    int delay = 0;                 // [frames]
     sfsm::Drawing drawing = sfsm::Drawing::opengl;
     std::vector<sfsm::simulate::Contestant> laws;
     std::optional<sfsm::simulate::Course> course;  // closed loop
@@ -46,6 +48,10 @@ auto made_of(const std::string& path, const Make& make) {
         throw std::runtime_error(path + ": " + error.what());
     }
 }
+
+// The recording's rows with this session's targets; of other tools' recordings made as they are asked for. The session
+// must outlive them and stay where it is.
+sfsm::RunRows rows_of(const Session& session);
 
 // The recorded run as it was, beside which the laws' are shown.
 Rerun recorded_run(const Session& session);

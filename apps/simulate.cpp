@@ -56,12 +56,11 @@ std::map<std::string, std::string> trace_settings(const sim::Scenario& scenario,
 }
 
 void write_run(std::ostream& out, const sim::Course& course, const sim::Contestant& law) {
-    Rerun run = rerun_closed(law, course);
+    const Rerun run = rerun_closed(law, course);
     sfsm::write_trace_header(out, trace_settings(course.scenario, law.name));
-    for (sfsm::TraceRow& row : run.rows) {
-        add_forecast(row, *course.scenario.plant);
-        sfsm::write_trace_row(out, row);
-    }
+    std::int64_t frame = 0;
+    for (const RerunFrame& rerun : run.frames)
+        sfsm::write_trace_row(out, trace_row(*course.scenario.plant, frame++, rerun));
 }
 
 sim::ScorecardOptions scorecard_options(const SimulateOptions& options) {

@@ -19,17 +19,28 @@ std::string found_setting(const Trace& trace, const std::pair<const std::string,
 
 }  // namespace
 
+RunRows run_rows(std::span<const TraceRow> rows) {
+    return {rows.size(), [rows](std::size_t i) -> const TraceRow& { return rows[i]; }};
+}
+
 std::vector<Replayed> replay(Controller& law, std::span<const TraceRow> rows, int delay) {
+    return replay(law, run_rows(rows), delay);
+}
+
+std::vector<Replayed> replay(Controller& law, const RunRows& rows, int delay) {
     assert(delay >= 0 && delay <= max_delay);
     std::vector<Replayed> replayed;
-    replayed.reserve(rows.size());
+    replayed.reserve(rows.count);
     std::size_t arrived = 0;
-    for (const TraceRow& row : rows) {
-        for (; arrived < replayed.size() && rows[arrived].frame < row.frame - delay; ++arrived) {
-            const TraceRow& past = rows[arrived];
+    for (std::size_t i = 0; i < rows.count; ++i) {
+        const std::int64_t frame = rows.at(i).frame;
+        for (; arrived < i; ++arrived) {
+            const TraceRow& past = rows.at(arrived);
+            if (past.frame >= frame - delay) break;
             if (std::isnan(past.frame_ms)) continue;
             law.observe({past.frame, past.frame_ms, replayed[arrived].decision, past.work});
         }
+        const TraceRow& row = rows.at(i);
         const Forecast forecast = row.forecast();
         const Decision decision = law.decide({row.target_ms, row.range, row.has_forecast() ? &forecast : nullptr});
         replayed.push_back({decision, law.status().predicted_ms});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -21,9 +22,17 @@ struct Replayed {
     double predicted_ms = 0;  // Status's
 };
 
+// The rows of a run, be they kept or made as they are asked for: a row is what it is until another one is asked for.
+struct RunRows {
+    std::size_t count = 0;
+    std::function<const TraceRow&(std::size_t)> at;
+};
+RunRows run_rows(std::span<const TraceRow> rows);  // which must outlive them
+
 // What `law` decides at the rows' targets and ranges; one element a row. Before it decides frame k, it has observed the
 // times of the frames up to k - 1 - delay; `delay` in [0, max_delay]. Open loop: each recorded time is taken for the
 // time of the law's own decision. A row without a time is not observed.
+std::vector<Replayed> replay(Controller& law, const RunRows& rows, int delay);
 std::vector<Replayed> replay(Controller& law, std::span<const TraceRow> rows, int delay);
 
 // The setting `delay`; 0 where the trace has none. Throws std::runtime_error when it is not a number in [0, max_delay].

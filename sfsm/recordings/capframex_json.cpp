@@ -211,8 +211,8 @@ StreamFrames to_stream(const Run& run, const LineReader& lines) {
         const std::int64_t entry = static_cast<std::int64_t>(i) + 1;
         if (is_shown_again(stream, run[presents][i], entry)) continue;
         if (part(run, dropped, i) == 1) stream.unshown.add(entry);
-        const FrameTimes told{run[presents][i], part(run, cpu, i), part(run, gpu, i)};
-        add_frame(stream, usable_times(told, stream, entry), 0);
+        const FrameRecord told{run[presents][i], part(run, cpu, i), part(run, gpu, i)};
+        add_frame(stream, usable_frame(told, stream, entry), 0);
     }
     return stream;
 }

@@ -273,7 +273,7 @@ void CsvReader::take_row(double told) {
 void CsvReader::take_present(double told_ms) {
     StreamFrames& stream =
         table_.find(row_->text(Column::process), row_->text(Column::process_id), row_->text(Column::swap_chain));
-    FrameTimes told{told_ms, part(Column::cpu, stream), part(Column::gpu, stream)};
+    FrameRecord told{told_ms, part(Column::cpu, stream), part(Column::gpu, stream)};
     if (header_->has(Column::frame_rest)) {
         told.cpu_ms = told_ms;
         told.frame_ms += number(Column::frame_rest);
@@ -281,7 +281,7 @@ void CsvReader::take_present(double told_ms) {
     stream.span.extend(lines_.number(), row_->text(Column::present_time));
     if (is_no_frame(stream, told.frame_ms)) return;
     take_fate(stream);
-    add_frame(stream, usable_times(told, stream, lines_.number()), present());
+    add_frame(stream, usable_frame(told, stream, lines_.number()), present());
 }
 
 // Whether the row only shows what another generated, or what was rendered before.

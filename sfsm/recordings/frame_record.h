@@ -26,5 +26,6 @@ struct FrameRecord {
 
     enum class Fate : std::uint8_t { untold, shown, dropped } fate = Fate::untold;
 };
+static_assert(sizeof(FrameRecord) <= 40, "recordings have millions of them");
 
 }  // namespace sfsm

@@ -48,7 +48,7 @@ std::vector<double> intervals(const std::vector<RawTime>& raw) {
 }
 
 // Rows a frame each take their frametime from row to row; pauses between them change nothing.
-bool is_sampled(const std::vector<FrameTimes>& rows, const std::vector<double>& steps) {
+bool is_sampled(const std::vector<FrameRecord>& rows, const std::vector<double>& steps) {
     constexpr double tolerance = 1.5;
     std::vector<double> ratios;
     for (std::size_t i = 1; i < rows.size(); ++i) {
@@ -91,10 +91,10 @@ private:
 };
 
 void spread_samples(StreamFrames& stream, const std::vector<double>& steps, const std::string& name) {
-    std::vector<FrameTimes> frames;
+    std::vector<FrameRecord> frames;
     Spread spread(usual(steps));
     for (std::size_t i = 1; i < stream.frames.size(); ++i) {
-        const FrameTimes& sample = stream.frames[i];
+        const FrameRecord& sample = stream.frames[i];
         const double count = spread.count(steps[i], sample.frame_ms);
         if (static_cast<double>(frames.size()) + count > most_frames_of_all) {
             throw std::runtime_error(name + ": found samples of more than 20 million frames, expected fewer");
@@ -114,7 +114,7 @@ void take_mangohud_rows(StreamFrames& stream, const std::string& name) {
     note_unit(stream, unit);
     stream.frames.reserve(stream.raw.size());
     for (const RawTime& row : stream.raw) {
-        stream.frames.push_back(usable_times({in_milliseconds(row.time, unit)}, stream, row.line));
+        stream.frames.push_back(usable_frame({in_milliseconds(row.time, unit)}, stream, row.line));
     }
     const std::vector<double> steps = intervals(stream.raw);
     stream.raw = {};

@@ -155,8 +155,8 @@ void take_raw_times(StreamFrames& stream, ColumnMeaning meaning) {
     }
     stream.frames.reserve(stream.raw.size());
     for (const RawTime& row : stream.raw) {
-        const FrameTimes told{in_milliseconds(row.time, *meaning.unit)};
-        stream.frames.push_back(usable_times(told, stream, row.line));
+        const FrameRecord told{in_milliseconds(row.time, *meaning.unit)};
+        stream.frames.push_back(usable_frame(told, stream, row.line));
     }
     stream.raw = {};
 }

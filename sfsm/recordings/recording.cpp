@@ -17,8 +17,6 @@
 namespace sfsm {
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
 // Whether the first line that is no setting is the header of one of ours.
 bool is_our_trace(std::string_view head) {
     while (head.starts_with('#')) {
@@ -51,7 +49,9 @@ Recording our_recording(LineReader& lines) {
         lines.fail("found no whole row behind the header of a trace, expected at least one");
     Stream& stream = recording.streams.emplace_back();
     stream.frames = static_cast<std::int64_t>(recording.trace.rows.size());
+    recording.frames.reserve(recording.trace.rows.size());
     for (const TraceRow& row : recording.trace.rows) {
+        recording.frames.push_back({row.frame_ms, row.cpu_ms, row.gpu_ms});
         if (!std::isnan(row.frame_ms)) stream.seconds += row.frame_ms / 1000;
     }
     return recording;
@@ -125,19 +125,7 @@ bool asks_for_chain(const std::vector<StreamFrames>& streams, const RecordingOpt
            std::any_of(streams.begin(), streams.end(), has_chain);
 }
 
-std::vector<TraceRow> to_rows(const std::vector<FrameTimes>& frames) {
-    std::vector<TraceRow> rows(frames.size());
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-        rows[i].frame = static_cast<std::int64_t>(i);
-        rows[i].target_ms = unknown;
-        rows[i].frame_ms = frames[i].frame_ms;
-        rows[i].cpu_ms = frames[i].cpu_ms;
-        rows[i].gpu_ms = frames[i].gpu_ms;
-    }
-    return rows;
-}
-
-// Of what a tool has recorded: the chosen stream as a trace.
+// Of what a tool has recorded: the chosen stream.
 Recording to_recording(Collected collected, const std::string& name, const RecordingOptions& options) {
     std::vector<StreamFrames>& streams = collected.streams;
     if (!asks_for_chain(streams, options)) join_swap_chains(streams);
@@ -147,20 +135,20 @@ Recording to_recording(Collected collected, const std::string& name, const Recor
     recording.format = collected.format;
     for (const StreamFrames& stream : streams) recording.streams.push_back(summed_up(stream));
     recording.chosen = choose(recording, name, options);
-    const StreamFrames& chosen = streams[recording.chosen];
+    StreamFrames& chosen = streams[recording.chosen];
     if (chosen.frames.empty()) {
         const std::string type = chosen.generated.type;
         throw std::runtime_error(name + ": found no frame of " + recording.format +
                                  (type.empty() ? "" : " but those of FrameType " + type) + ", expected at least one");
     }
     recording.trace.name = name;
-    recording.trace.rows = to_rows(chosen.frames);
     recording.trace.settings = std::move(collected.settings);
     recording.trace.settings["format"] = recording.format;
     recording.trace.settings["process"] = chosen.process;
     recording.trace.settings["process_id"] = chosen.process_id;
     recording.trace.settings["swap_chain"] = chosen.swap_chain;
     recording.notes = all_notes(chosen, collected.place);
+    recording.frames = std::move(chosen.frames);
     recording.notes.insert(recording.notes.end(), collected.notes.begin(), collected.notes.end());
     return recording;
 }

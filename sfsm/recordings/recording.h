@@ -1,4 +1,4 @@
-// A recorded run of any of the tools people use, as one of our traces: our own traces, PresentMon 1.x, 2.x and the
+// A recorded run of any of the tools people use, frame by frame: our own traces, PresentMon 1.x, 2.x and the
 // current console columns, OCAT, CapFrameX CSV and JSON, FrameView, MangoHud (per frame and sampled), FRAPS, MSI
 // Afterburner, Unreal's CSV profiler, and any table with a column of times.
 // docs/recordings.md lists what each one's columns become and how their quirks are read.
@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "sfsm/recordings/frame_record.h"
 #include "sfsm/recordings/raw_times.h"
 #include "sfsm/trace.h"
 
@@ -27,10 +28,10 @@ struct Stream {
 struct Recording {
     std::string format;  // "trace", "CapFrameX JSON" or a name of formats.cpp: "PresentMon 1.x", "OCAT" ...
 
-    // One of ours as it is. Else of the chosen stream: frames counted from 0, frame_ms, and cpu_ms and gpu_ms [ms]
-    // where the tool tells them; NaN: not told. Target (NaN), range (0), decisions and work are those of a row that has
-    // none. Settings: format, process, process_id, swap_chain (empty: not told), and what the file says of itself
-    // before its header.
+    std::vector<FrameRecord> frames;  // of the chosen stream
+
+    // One of ours as it is. Else without rows; its settings are format, process, process_id, swap_chain (empty: not
+    // told), and what the file says of itself before its header.
     Trace trace;
 
     std::vector<Stream> streams;     // all in the file, most frames first; one nameless where the tool has no processes

@@ -6,7 +6,6 @@
 namespace sfsm {
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double longest_ms = 600'000;
 
 std::string first_in(const Tally& tally, std::string_view place) {
@@ -17,7 +16,7 @@ std::string first_in(const Tally& tally, std::string_view place) {
 double part(double told, StreamFrames& stream, std::int64_t place) {
     if (std::isnan(told) || (told >= 0 && told <= longest_ms)) return told;
     stream.unusable_parts.add(place);
-    return unknown;
+    return FrameRecord::untold;
 }
 
 // What was shown, beside what was rendered.
@@ -56,16 +55,16 @@ std::string counted(std::int64_t count, const char* one, const char* several) {
 
 double StreamFrames::seconds() const {
     double ms = 0;
-    for (const FrameTimes& times : frames) ms += std::isnan(times.frame_ms) ? 0 : times.frame_ms;
+    for (const FrameRecord& frame : frames) ms += std::isnan(frame.frame_ms) ? 0 : frame.frame_ms;
     return ms / 1000;
 }
 
-void add_frame(StreamFrames& stream, FrameTimes times, std::size_t present) {
+void add_frame(StreamFrames& stream, FrameRecord frame, std::size_t present) {
     GeneratedFrames& generated = stream.generated;
     const bool is_told_again = present != 0 && present == generated.present;
     if (is_told_again) generated.waiting_ms -= generated.last_ms;
-    times.frame_ms += generated.waiting_ms;
-    stream.frames.push_back(times);
+    frame.frame_ms += generated.waiting_ms;
+    stream.frames.push_back(frame);
     generated.waiting_ms = generated.last_ms = 0;
     generated.present = present;
 }
@@ -78,12 +77,12 @@ void add_generated(StreamFrames& stream, double ms, std::size_t present) {
     generated.present = present;
 }
 
-FrameTimes usable_times(FrameTimes told, StreamFrames& stream, std::int64_t place) {
+FrameRecord usable_frame(FrameRecord told, StreamFrames& stream, std::int64_t place) {
     if (std::isnan(told.frame_ms)) {
         stream.untold.add(place);
     } else if (!(told.frame_ms > 0 && told.frame_ms <= longest_ms)) {
         stream.unusable.add(place);
-        told.frame_ms = unknown;
+        told.frame_ms = FrameRecord::untold;
     }
     told.cpu_ms = part(told.cpu_ms, stream, place);
     told.gpu_ms = part(told.gpu_ms, stream, place);

@@ -2,23 +2,16 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <string>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
 
+#include "sfsm/recordings/frame_record.h"
 #include "sfsm/recordings/raw_times.h"
 
 namespace sfsm {
-
-// [ms]; NaN: not told, or not usable.
-struct FrameTimes {
-    double frame_ms = 0;
-    double cpu_ms = std::numeric_limits<double>::quiet_NaN();
-    double gpu_ms = std::numeric_limits<double>::quiet_NaN();
-};
 
 // How often something was met, and where first: in which line, or of JSON which entry of the arrays.
 struct Tally {
@@ -62,7 +55,7 @@ struct Span {
 
 struct StreamFrames {
     std::string process, process_id, swap_chain;  // as the file has them
-    std::vector<FrameTimes> frames;
+    std::vector<FrameRecord> frames;
     std::vector<RawTime> raw;  // times that become frames when all are known
 
     Tally unshown, unknown_fate, untold, unusable, unusable_parts;
@@ -76,7 +69,7 @@ struct StreamFrames {
 };
 
 // A frame of the application and one of somebody else's; `present` as in GeneratedFrames.
-void add_frame(StreamFrames& stream, FrameTimes times, std::size_t present);
+void add_frame(StreamFrames& stream, FrameRecord frame, std::size_t present);
 void add_generated(StreamFrames& stream, double ms, std::size_t present);
 
 // Whether a present only shows again what the one before did: it takes exactly 0 ms, and is not the stream's first,
@@ -85,7 +78,7 @@ bool is_shown_again(StreamFrames& stream, double told_ms, std::int64_t place);
 
 // Times of a frame as they are told, into usable ones: a frame's in (0, 10 min], a part's in [0, 10 min], else NaN and
 // counted. `place` as in Tally.
-FrameTimes usable_times(FrameTimes told, StreamFrames& stream, std::int64_t place);
+FrameRecord usable_frame(FrameRecord told, StreamFrames& stream, std::int64_t place);
 
 std::string counted(std::int64_t count, const char* one, const char* several);
 

@@ -185,13 +185,13 @@ bool is_range(double metres) {
 
 // For each row the last one up to it that has what is asked for; for the first ones, the first. Nothing: none has.
 template <class Has>
-std::vector<std::size_t> last_rows(std::span<const TraceRow> rows, const Has& has) {
-    std::vector<std::size_t> last(rows.size());
-    const auto first = std::find_if(rows.begin(), rows.end(), has);
-    if (first == rows.end()) return {};
-    auto found = static_cast<std::size_t>(first - rows.begin());
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        if (has(rows[i])) found = i;
+std::vector<std::size_t> last_rows(const RunRows& rows, const Has& has) {
+    std::size_t found = 0;
+    while (found < rows.count && !has(rows.at(found))) ++found;
+    if (found == rows.count) return {};
+    std::vector<std::size_t> last(rows.count);
+    for (std::size_t i = 0; i < rows.count; ++i) {
+        if (has(rows.at(i))) found = i;
         last[i] = found;
     }
     return last;
@@ -204,7 +204,8 @@ bool has_time(const TraceRow& row) {
 // Of our own rows: the model is fitted, the candidates are the rows'.
 RecordedPlant own_plant(std::span<const TraceRow> rows, std::span<const std::size_t> forecast_of, Drawing drawing) {
     const CostFit fit = fit_costs(rows, drawing);
-    const std::vector<std::size_t> range_of = last_rows(rows, [](const TraceRow& row) { return is_range(row.range); });
+    const std::vector<std::size_t> range_of =
+        last_rows(run_rows(rows), [](const TraceRow& row) { return is_range(row.range); });
     std::vector<Steps> steps;
     std::vector<RecordedFrame> frames;
     std::vector<std::size_t> place(rows.size());  // of a row's steps
@@ -240,46 +241,65 @@ Decision rescaled(Decision decision, double from, double to) {
     return decision;
 }
 
-TargetSchedule targets_of(std::span<const TraceRow> rows) {
+TargetSchedule targets_of(const RunRows& rows) {
     std::vector<double> ms;
-    ms.reserve(rows.size());
-    for (const TraceRow& row : rows) ms.push_back(row.target_ms);
+    ms.reserve(rows.count);
+    for (std::size_t i = 0; i < rows.count; ++i) ms.push_back(rows.at(i).target_ms);
     return TargetSchedule::of_frames(ms);
+}
+
+// Of each row the one that it takes its time from.
+std::vector<std::size_t> times_of(const RunRows& rows) {
+    std::vector<std::size_t> time_of = last_rows(rows, has_time);
+    if (!time_of.empty()) return time_of;
+    throw std::runtime_error("found no time in " + std::to_string(rows.count) +
+                             " frames, expected at least one of 1e-6 to 1e9 ms");
+}
+
+void set_loads(RecordedPlant& plant, const RunRows& rows, std::span<const std::size_t> time_of, bool is_foreign) {
+    for (std::size_t i = 0; i < rows.count; ++i) {
+        const TraceRow& row = rows.at(i);
+        const auto frame = static_cast<std::int64_t>(i);
+        if (!has_time(row)) continue;
+        const Decision decision = is_foreign ? rescaled(row.decision, row.range, plant.range(frame)) : row.decision;
+        plant.record(frame, row.frame_ms, decision);
+    }
+    for (std::size_t i = 0; i < rows.count; ++i)
+        plant.set_load(static_cast<std::int64_t>(i), plant.load(static_cast<std::int64_t>(time_of[i])));
+}
+
+Scenario scenario_of(std::shared_ptr<Plant> plant, const RunRows& rows, int delay, Drawing drawing) {
+    assert(delay >= 0 && delay <= max_delay);
+    Scenario scenario;
+    scenario.name = "recorded";
+    scenario.about = "a recorded run of " + std::to_string(rows.count) + " frames";
+    scenario.plant = std::move(plant);
+    scenario.drawing = drawing;
+    scenario.target = targets_of(rows);
+    scenario.frames = static_cast<std::int64_t>(rows.count);
+    scenario.statistics_from = std::min(usual_start, scenario.frames / 10);
+    scenario.delay = delay;
+    return scenario;
 }
 
 }  // namespace
 
-Scenario recorded_scenario(std::span<const TraceRow> rows, const RecordedOptions& options) {
-    assert(options.delay >= 0 && options.delay <= max_delay);
-    const std::vector<std::size_t> time_of = last_rows(rows, has_time);
-    if (time_of.empty()) {
-        throw std::runtime_error("found no time in " + std::to_string(rows.size()) +
-                                 " frames, expected at least one of 1e-6 to 1e9 ms");
-    }
-    std::vector<std::size_t> forecast_of;
-    if (options.has_work) forecast_of = last_rows(rows, has_sound_forecast);
-    const bool is_foreign = forecast_of.empty();
-    const auto plant = std::make_shared<RecordedPlant>(is_foreign ? reference_plant(rows.size())
-                                                                  : own_plant(rows, forecast_of, options.drawing));
-    for (std::int64_t frame = 0; frame < std::ssize(rows); ++frame) {
-        const TraceRow& row = rows[static_cast<std::size_t>(frame)];
-        if (!has_time(row)) continue;
-        const Decision decision = is_foreign ? rescaled(row.decision, row.range, plant->range(frame)) : row.decision;
-        plant->record(frame, row.frame_ms, decision);
-    }
-    for (std::int64_t frame = 0; frame < std::ssize(rows); ++frame)
-        plant->set_load(frame, plant->load(static_cast<std::int64_t>(time_of[static_cast<std::size_t>(frame)])));
+Scenario foreign_scenario(const RunRows& rows, int delay, Drawing drawing) {
+    const std::vector<std::size_t> time_of = times_of(rows);
+    auto plant = std::make_shared<RecordedPlant>(reference_plant(rows.count));
+    set_loads(*plant, rows, time_of, true);
+    return scenario_of(std::move(plant), rows, delay, drawing);
+}
 
-    Scenario scenario;
-    scenario.name = "recorded";
-    scenario.about = "a recorded run of " + std::to_string(rows.size()) + " frames";
-    scenario.plant = plant;
-    scenario.drawing = options.drawing;
-    scenario.target = targets_of(rows);
-    scenario.frames = std::ssize(rows);
-    scenario.statistics_from = std::min(usual_start, scenario.frames / 10);
-    scenario.delay = options.delay;
-    return scenario;
+Scenario recorded_scenario(std::span<const TraceRow> rows, const RecordedOptions& options) {
+    const RunRows all = run_rows(rows);
+    std::vector<std::size_t> forecast_of;
+    if (options.has_work) forecast_of = last_rows(all, has_sound_forecast);
+    if (forecast_of.empty()) return foreign_scenario(all, options.delay, options.drawing);
+    const std::vector<std::size_t> time_of = times_of(all);
+    auto plant = std::make_shared<RecordedPlant>(own_plant(rows, forecast_of, options.drawing));
+    set_loads(*plant, all, time_of, false);
+    return scenario_of(std::move(plant), all, options.delay, options.drawing);
 }
 
 }  // namespace sfsm::simulate

@@ -12,6 +12,7 @@
 
 #include <span>
 
+#include "sfsm/replay.h"
 #include "sfsm/simulate/cost_fit.h"
 #include "sfsm/simulate/scenario.h"
 #include "sfsm/trace.h"
@@ -40,5 +41,8 @@ struct RecordedOptions {
 // Throws std::runtime_error where no row has a time, as fit_costs does where it is needed, and std::invalid_argument
 // where a target is not one (target.h).
 Scenario recorded_scenario(std::span<const TraceRow> rows, const RecordedOptions& options);
+
+// The same of rows without work.
+Scenario foreign_scenario(const RunRows& rows, int delay, Drawing drawing = Drawing::opengl);
 
 }  // namespace sfsm::simulate

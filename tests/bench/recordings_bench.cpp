@@ -62,7 +62,7 @@ void read_all(benchmark::State& state, std::string text, int rows) {
     for (auto _ : state) {
         Bytes bytes(text);
         std::istream in(&bytes);
-        benchmark::DoNotOptimize(read_recording(in, "bench").trace.rows.size());
+        benchmark::DoNotOptimize(read_recording(in, "bench").frames.size());
     }
     state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(text.size()));
     state.SetItemsProcessed(state.iterations() * rows);

@@ -12,7 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     try {
         const sfsm::Recording recording = sfsm::read_recording(in, "fuzz");
         const std::int64_t frames = recording.streams.at(recording.chosen).frames;
-        if (frames != static_cast<std::int64_t>(recording.trace.rows.size())) std::abort();
+        if (frames != static_cast<std::int64_t>(recording.frames.size())) std::abort();
     } catch (const std::runtime_error& error) {
         if (std::string(error.what()).find_first_of("\r\n") != std::string::npos) std::abort();
     }

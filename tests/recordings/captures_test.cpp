@@ -80,10 +80,10 @@ constexpr Capture captures[] = {
      0, 0},
 };
 
-double median(const Trace& trace, double TraceRow::*time) {
+double median(const std::vector<FrameRecord>& frames, double FrameRecord::*time) {
     std::vector<double> times;
-    for (const TraceRow& row : trace.rows) {
-        if (!std::isnan(row.*time)) times.push_back(row.*time);
+    for (const FrameRecord& frame : frames) {
+        if (!std::isnan(frame.*time)) times.push_back(frame.*time);
     }
     if (times.empty()) return 0;
     std::sort(times.begin(), times.end());
@@ -104,11 +104,11 @@ TEST_P(Captures, ReadAsTheirToolMeantThem) {
     EXPECT_EQ(recording.streams.size(), expected.streams);
     EXPECT_EQ(chosen.process, expected.process);
     EXPECT_EQ(chosen.frames, static_cast<std::int64_t>(expected.frames));
-    EXPECT_EQ(recording.trace.rows.size(), expected.frames);
+    EXPECT_EQ(recording.frames.size(), expected.frames);
     EXPECT_NEAR(chosen.seconds * 1000, expected.sum_ms, rounding_ms);
-    EXPECT_EQ(median(recording.trace, &TraceRow::frame_ms), expected.median_ms);
-    EXPECT_EQ(median(recording.trace, &TraceRow::cpu_ms), expected.median_cpu_ms);
-    EXPECT_EQ(median(recording.trace, &TraceRow::gpu_ms), expected.median_gpu_ms);
+    EXPECT_EQ(median(recording.frames, &FrameRecord::frame_ms), expected.median_ms);
+    EXPECT_EQ(median(recording.frames, &FrameRecord::cpu_ms), expected.median_cpu_ms);
+    EXPECT_EQ(median(recording.frames, &FrameRecord::gpu_ms), expected.median_gpu_ms);
     const std::vector<double> times = frame_times(recording);
     EXPECT_EQ(*std::max_element(times.begin(), times.end()), expected.longest_ms);
     if (expected.dropped == 0) {

@@ -26,19 +26,19 @@ RecordingOptions of_column(const std::string& column, std::optional<Unit> unit =
 }
 
 void expect_thirty(const Recording& recording) {
-    ASSERT_EQ(recording.trace.rows.size(), 30u);
+    ASSERT_EQ(recording.frames.size(), 30u);
     for (std::size_t i = 0; i < 30; ++i) {
-        EXPECT_NEAR(recording.trace.rows[i].frame_ms, 10.5 + static_cast<double>(i % 3), 1e-9);
+        EXPECT_NEAR(recording.frames[i].frame_ms, 10.5 + static_cast<double>(i % 3), 1e-9);
     }
 }
 
 TEST(Columns, AfterburnersSamplesAreRows) {
     const Recording recording = read(afterburner({"16.667", "16.667", "N/A", "20.5"}));
     EXPECT_EQ(recording.format, "Afterburner");
-    ASSERT_EQ(recording.trace.rows.size(), 4u);
-    EXPECT_EQ(recording.trace.rows[0].frame_ms, 16.667);
-    EXPECT_TRUE(std::isnan(recording.trace.rows[2].frame_ms));
-    EXPECT_EQ(recording.trace.rows[3].frame_ms, 20.5);
+    ASSERT_EQ(recording.frames.size(), 4u);
+    EXPECT_EQ(recording.frames[0].frame_ms, 16.667);
+    EXPECT_TRUE(std::isnan(recording.frames[2].frame_ms));
+    EXPECT_EQ(recording.frames[3].frame_ms, 20.5);
     EXPECT_EQ(recording.trace.settings.at("GPU"), "GeForce RTX");
     EXPECT_TRUE(has_note(recording, "samples, taken now and then"));
     EXPECT_FALSE(has_note(recording, "left out")) << "its own lines are no noise";
@@ -68,8 +68,8 @@ TEST(Columns, UnrealsProfile) {
     const Recording recording = read(unreal({"8.5", "9.5"}));
     EXPECT_EQ(recording.format, "Unreal CSV profile");
     EXPECT_EQ(frame_times(recording), (std::vector<double>{8.5, 9.5}));
-    EXPECT_EQ(recording.trace.rows[0].cpu_ms, 5.1);
-    EXPECT_EQ(recording.trace.rows[0].gpu_ms, 3.1);
+    EXPECT_EQ(recording.frames[0].cpu_ms, 5.1);
+    EXPECT_EQ(recording.frames[0].gpu_ms, 3.1);
     EXPECT_EQ(recording.trace.settings.at("Platform"), "Windows");
     EXPECT_FALSE(recording.trace.settings.contains("Commandline")) << "it names the user's folders";
     EXPECT_TRUE(recording.notes.empty()) << recording.notes[0];
@@ -80,9 +80,9 @@ TEST(Columns, UnrealsRowsMayGrowAndHaveEvents) {
         "EVENTS,FrameTime,GameThreadTime\n,8.5,6\nmap;load,0,6,1,2\n,9.5,6,1,2\n"
         "EVENTS,FrameTime,GameThreadTime,New/a,New/b\n[HasHeaderRowAtEnd],1\n";
     const Recording recording = read(text);
-    ASSERT_EQ(recording.trace.rows.size(), 3u);
-    EXPECT_TRUE(std::isnan(recording.trace.rows[1].frame_ms)) << "a time of 0 is none, and no generated frame";
-    EXPECT_EQ(recording.trace.rows[2].frame_ms, 9.5);
+    ASSERT_EQ(recording.frames.size(), 3u);
+    EXPECT_TRUE(std::isnan(recording.frames[1].frame_ms)) << "a time of 0 is none, and no generated frame";
+    EXPECT_EQ(recording.frames[2].frame_ms, 9.5);
 }
 
 TEST(Columns, AGamesTableIsReadByItsNames) {
@@ -110,7 +110,7 @@ TEST(Columns, OneNumberALineIsAColumn) {
     }
     EXPECT_TRUE(has_note(read(thirty("", number)), "no unit told: taken for ms"));
     EXPECT_FALSE(has_note(read(thirty("ms\n", number)), "no unit told"));
-    EXPECT_EQ(read(lines({"10,5", "11,5", "nan", "noise", "9"})).trace.rows.size(), 4u);
+    EXPECT_EQ(read(lines({"10,5", "11,5", "nan", "noise", "9"})).frames.size(), 4u);
 }
 
 TEST(Columns, TheUnitIsToldOrTheOneInWhichAFrameIsLikely) {
@@ -129,10 +129,10 @@ TEST(Columns, TheUnitIsToldOrTheOneInWhichAFrameIsLikely) {
     }
     const auto fps = [](int, double ms) { return std::to_string(1000 / ms); };
     const Recording rates = read(thirty("x\n", fps), of_column("x", Unit::fps));
-    ASSERT_EQ(rates.trace.rows.size(), 30u);
-    EXPECT_NEAR(rates.trace.rows[0].frame_ms, 10.5, 1e-3);
-    EXPECT_NEAR(read(thirty("fps\n", fps), of_column("fps")).trace.rows[1].frame_ms, 11.5, 1e-3);
-    EXPECT_TRUE(std::isnan(read("fps\n0\n60\n", of_column("fps")).trace.rows[0].frame_ms));
+    ASSERT_EQ(rates.frames.size(), 30u);
+    EXPECT_NEAR(rates.frames[0].frame_ms, 10.5, 1e-3);
+    EXPECT_NEAR(read(thirty("fps\n", fps), of_column("fps")).frames[1].frame_ms, 11.5, 1e-3);
+    EXPECT_TRUE(std::isnan(read("fps\n0\n60\n", of_column("fps")).frames[0].frame_ms));
 }
 
 TEST(Columns, TimesThatGoOnAreAClock) {

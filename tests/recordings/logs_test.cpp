@@ -54,9 +54,9 @@ TEST(Logs, MangoHudsAveragedRatesTellTheUnitOfAllRows) {
     EXPECT_EQ(frame_times(recording), (std::vector<double>{5.2, 6.3, 5.6, 5.2, 4.6, 4.9, 9.1, 7.4}));
     EXPECT_TRUE(has_note(recording, "microseconds"));
     table.rows[3][1] = "212000";  // a hitch stays one
-    EXPECT_EQ(read(table.text()).trace.rows[3].frame_ms, 212);
+    EXPECT_EQ(read(table.text()).frames[3].frame_ms, 212);
     for (std::vector<std::string>& row : table.rows) row[1] = std::to_string(std::stod(row[1]) / 1000);
-    EXPECT_EQ(read(table.text()).trace.rows[3].frame_ms, 212) << "nor is it another unit in a log of milliseconds";
+    EXPECT_EQ(read(table.text()).frames[3].frame_ms, 212) << "nor is it another unit in a log of milliseconds";
 }
 
 TEST(Logs, SampledPeriodsHoldAsManyFramesAsFit) {
@@ -67,7 +67,7 @@ TEST(Logs, SampledPeriodsHoldAsManyFramesAsFit) {
         for (int i = 1; i <= 10; ++i)
             table.rows.push_back({std::to_string(fps), std::to_string(1000 / fps),
                                   std::to_string(static_cast<std::int64_t>(i * period_s * 1e9))});
-        return static_cast<double>(read(table.text()).trace.rows.size());
+        return static_cast<double>(read(table.text()).frames.size());
     };
     EXPECT_NEAR(frames(144, 10), 12960, 1);
     EXPECT_NEAR(frames(500, 60), 9 * 30000, 9);
@@ -98,7 +98,7 @@ TEST(Logs, TheFirstPresentOfNoTimeIsNone) {
     table.rows[0][frame_time] = "0";
     const Recording recording = read(table.text());
     EXPECT_EQ(recording.streams[0].generated, 0);
-    EXPECT_TRUE(std::isnan(recording.trace.rows[0].frame_ms));
+    EXPECT_TRUE(std::isnan(recording.frames[0].frame_ms));
 }
 
 TEST(Logs, TwoRowsChangeTheMeanByTwoRows) {
@@ -106,7 +106,7 @@ TEST(Logs, TwoRowsChangeTheMeanByTwoRows) {
         const auto mean_of = [&](std::size_t short_rows) {
             Table table = game(1000, 20);
             for (std::size_t i = 0; i < short_rows; ++i) table.rows[2 * i + 1][frame_time] = std::to_string(shorter);
-            EXPECT_EQ(read(table.text()).trace.rows.size(), 1000u);
+            EXPECT_EQ(read(table.text()).frames.size(), 1000u);
             return mean(read(table.text()));
         };
         EXPECT_NEAR(mean_of(99) / mean_of(101), 1, 0.01);
@@ -117,7 +117,7 @@ TEST(Logs, RepeatedPresentsCountOnceAndOnlyIfTheyAreThem) {
     Table table = presentmon_2();
     constexpr std::size_t type = 3, start = 4;
     table.rows[1][type] = "Repeated";
-    EXPECT_EQ(read(table.text()).trace.rows.size(), 3u) << "it has a time of its own";
+    EXPECT_EQ(read(table.text()).frames.size(), 3u) << "it has a time of its own";
     table.rows[1][start] = table.rows[0][start];
     const Recording recording = read(table.text());
     EXPECT_EQ(frame_times(recording), (std::vector<double>{16.1, 16.3}));
@@ -133,11 +133,11 @@ TEST(Logs, PresentMonOfTwoPartsAddsThem) {
         table.rows.push_back({"game.exe", "11", "0x10", "10.0", "NA", "7", "15"});
         const Recording recording = read(table.text());
         EXPECT_EQ(recording.format, "PresentMon 2.0");
-        ASSERT_EQ(recording.trace.rows.size(), 7u);
-        EXPECT_EQ(recording.trace.rows[0].frame_ms, 15) << busy;
-        EXPECT_EQ(recording.trace.rows[0].cpu_ms, 10);
-        EXPECT_EQ(recording.trace.rows[0].gpu_ms, 7);
-        EXPECT_TRUE(std::isnan(recording.trace.rows[6].frame_ms));
+        ASSERT_EQ(recording.frames.size(), 7u);
+        EXPECT_EQ(recording.frames[0].frame_ms, 15) << busy;
+        EXPECT_EQ(recording.frames[0].cpu_ms, 10);
+        EXPECT_EQ(recording.frames[0].gpu_ms, 7);
+        EXPECT_TRUE(std::isnan(recording.frames[6].frame_ms));
     }
 }
 
@@ -160,10 +160,10 @@ TEST(Logs, TheCompositorIsTakenWhereItIsAloneOrAskedFor) {
         append(table, rows_of(40, 7), compositor, "1", "0x1");
         const Recording recording = read(table.text());
         EXPECT_EQ(recording.trace.settings.at("process"), "game.exe") << compositor;
-        EXPECT_EQ(recording.trace.rows.size(), 20u);
-        EXPECT_EQ(read(table.text(), {"dwm"}).trace.rows.size(), 40u);
+        EXPECT_EQ(recording.frames.size(), 20u);
+        EXPECT_EQ(read(table.text(), {"dwm"}).frames.size(), 40u);
         table.rows.erase(table.rows.begin(), table.rows.begin() + 20);
-        EXPECT_EQ(read(table.text()).trace.rows.size(), 40u);
+        EXPECT_EQ(read(table.text()).frames.size(), 40u);
     }
 }
 
@@ -173,14 +173,14 @@ TEST(Logs, ASwapChainMadeAnewGoesOn) {
     append(table, rows_of(5, 5, 1.0), "game.exe", "11", "0x30");
     const Recording recording = read(table.text());
     EXPECT_EQ(recording.streams.size(), 1u);
-    EXPECT_EQ(recording.trace.rows.size(), 75u);
-    EXPECT_EQ(recording.trace.rows[40].frame_ms, 20);
-    EXPECT_EQ(recording.trace.rows[70].frame_ms, 5);
+    EXPECT_EQ(recording.frames.size(), 75u);
+    EXPECT_EQ(recording.frames[40].frame_ms, 20);
+    EXPECT_EQ(recording.frames[70].frame_ms, 5);
     EXPECT_TRUE(
         has_note(recording, "3 swap chains, each made when the one before was gone: '0x10' (40 frames), '0x20'"));
     for (const RecordingOptions& alone : {RecordingOptions{{}, "0x20"}, {"0x20", {}}, {"game", "0x00000020"}}) {
         const Recording chain = read(table.text(), alone);
-        EXPECT_EQ(chain.trace.rows.size(), 30u);
+        EXPECT_EQ(chain.frames.size(), 30u);
         EXPECT_EQ(chain.trace.settings.at("swap_chain"), "0x20");
     }
     EXPECT_TRUE(contains(refusal(table.text(), {{}, "0x40"}), "swap chain '0x40', expected one of 'game.exe'"));
@@ -193,8 +193,8 @@ TEST(Logs, SwapChainsBesideEachOtherStayApart) {
     append(table, rows_of(10, 10, 0.8), "game.exe", "11", "0x30");
     const Recording recording = read(table.text());
     EXPECT_EQ(recording.streams.size(), 3u);
-    EXPECT_EQ(recording.trace.rows.size(), 50u) << "the busiest takes in what follows it";
-    EXPECT_EQ(read(table.text(), {"12"}).trace.rows.size(), 30u);
+    EXPECT_EQ(recording.frames.size(), 50u) << "the busiest takes in what follows it";
+    EXPECT_EQ(read(table.text(), {"12"}).frames.size(), 30u);
 }
 
 TEST(Logs, WithoutTimesTheOrderOfRowsTellsWhetherChainsOverlap) {
@@ -227,8 +227,8 @@ TEST(Logs, NamesMayLackExe) {
     Table table = game(5, 10);
     append(table, rows_of(9, 10), "Other", "12", "0x30");
     for (const char* name : {"game.exe", "game", "GAME", "Game.EXE", "11", "0x10"})
-        EXPECT_EQ(read(table.text(), {name}).trace.rows.size(), 5u) << name;
-    for (const char* name : {"other", "Other.exe"}) EXPECT_EQ(read(table.text(), {name}).trace.rows.size(), 9u) << name;
+        EXPECT_EQ(read(table.text(), {name}).frames.size(), 5u) << name;
+    for (const char* name : {"other", "Other.exe"}) EXPECT_EQ(read(table.text(), {name}).frames.size(), 9u) << name;
     EXPECT_TRUE(contains(refusal(table.text(), {".exe"}), "found no process"));
 }
 
@@ -236,7 +236,7 @@ TEST(Logs, RowsThatCannotBeReadAreLeftOutAndNamed) {
     for (const char* noise : {"Stop", "warning: lost events, 3", "game.exe,11,0x10,DXGI,0,0.1,ten,10,3"}) {
         std::string text = "Started recording.\nwarning: not elevated\n" + game().text() + noise + "\n";
         const Recording recording = read(text);
-        EXPECT_EQ(recording.trace.rows.size(), 20u);
+        EXPECT_EQ(recording.frames.size(), 20u);
         EXPECT_TRUE(has_note(recording, "1 row that can't be read, the first in line 24: ")) << noise;
         EXPECT_TRUE(has_note(recording, "2 lines before the header, from line 1, 'Started recording.': left out"));
     }
@@ -249,9 +249,9 @@ TEST(Logs, MoreThanAFewUnreadableRowsAreRefused) {
         for (std::size_t i = 0; i < bad; ++i) noise += "noise\n";
         return game(good).text() + noise;
     };
-    EXPECT_EQ(read(text(20, 10)).trace.rows.size(), 20u);
+    EXPECT_EQ(read(text(20, 10)).frames.size(), 20u);
     EXPECT_TRUE(contains(refusal(text(20, 11)), "r.csv:22: found 1 fields, expected 9 or more (and 10 rows more)"));
-    EXPECT_EQ(read(text(1980, 20)).trace.rows.size(), 1980u);
+    EXPECT_EQ(read(text(1980, 20)).frames.size(), 1980u);
     EXPECT_TRUE(contains(refusal(text(1979, 21)), "r.csv:1981: found 1 fields"));
     EXPECT_TRUE(contains(refusal(text(3, 3)), "r.csv:5: found 1 fields"));
 }
@@ -260,7 +260,7 @@ TEST(Logs, AnEmptyTimeIsNone) {
     Table table = game();
     table.rows[0][frame_time] = table.rows[7][frame_time] = "";
     const Recording recording = read(table.text());
-    EXPECT_EQ(recording.trace.rows.size(), 20u);
+    EXPECT_EQ(recording.frames.size(), 20u);
     EXPECT_EQ(mean(recording), 10);
     EXPECT_TRUE(has_note(recording, "2 frames without a time (the first in line 2)"));
 }

@@ -50,7 +50,7 @@ TEST(Packed, GzipThatSwellsIsRefused) {
     while (rows.size() < (std::size_t{12} << 20)) rows += "16,a\n";
     EXPECT_TRUE(contains(refusal(gzip(header + rows)), "swells to over 100 times its size, expected a recording"));
     rows.resize(std::size_t{1} << 20);
-    EXPECT_GT(read(gzip(header + rows)).trace.rows.size(), 100'000u) << "a small file may";
+    EXPECT_GT(read(gzip(header + rows)).frames.size(), 100'000u) << "a small file may";
 }
 
 TEST(Packed, Utf16IsReadInEitherOrderWithAndWithoutMark) {
@@ -85,7 +85,7 @@ TEST(Packed, Utf16CutAnywhereIsReadOrRefused) {
     for (std::size_t size = 0; size < text.size(); ++size) {
         std::istringstream in(text.substr(0, size));
         try {
-            EXPECT_LE(read_recording(in, "r.csv").trace.rows.size(), 3u);
+            EXPECT_LE(read_recording(in, "r.csv").frames.size(), 3u);
         } catch (const std::runtime_error& error) {
             EXPECT_TRUE(std::string(error.what()).starts_with("r.csv:")) << error.what();
         }
@@ -101,7 +101,7 @@ TEST(Packed, DamagedBytesNeverDoHarm) {
         std::istringstream in(text);
         try {
             const Recording recording = read_recording(in, "r.csv");
-            ASSERT_EQ(recording.streams.at(recording.chosen).frames, std::ssize(recording.trace.rows));
+            ASSERT_EQ(recording.streams.at(recording.chosen).frames, std::ssize(recording.frames));
         } catch (const std::runtime_error& error) {
             ASSERT_EQ(std::string(error.what()).find_first_of("\r\n"), std::string::npos);
         }

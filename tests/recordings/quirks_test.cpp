@@ -14,10 +14,10 @@ std::vector<Table> all_tables() {
 // Same frames and streams; notes may name other lines.
 void expect_same(const Recording& a, const Recording& b) {
     EXPECT_EQ(a.format, b.format);
-    ASSERT_EQ(a.trace.rows.size(), b.trace.rows.size());
-    for (std::size_t i = 0; i < a.trace.rows.size(); ++i) {
-        const TraceRow &x = a.trace.rows[i], &y = b.trace.rows[i];
-        for (double TraceRow::*time : {&TraceRow::frame_ms, &TraceRow::cpu_ms, &TraceRow::gpu_ms}) {
+    ASSERT_EQ(a.frames.size(), b.frames.size());
+    for (std::size_t i = 0; i < a.frames.size(); ++i) {
+        const FrameRecord &x = a.frames[i], &y = b.frames[i];
+        for (double FrameRecord::*time : {&FrameRecord::frame_ms, &FrameRecord::cpu_ms, &FrameRecord::gpu_ms}) {
             EXPECT_TRUE(x.*time == y.*time || (std::isnan(x.*time) && std::isnan(y.*time))) << "frame " << i;
         }
     }
@@ -96,7 +96,7 @@ TEST(Quirks, DecimalCommasTakenForSeparatorsAreRefused) {
     EXPECT_TRUE(contains(refusal(table.text()), "r.csv:2: found 10 fields, expected 9 at most"));
     table = presentmon_1();
     table.rows[1].insert(table.rows[1].end(), {"", " ", ""});  // but empty fields at the end are nothing
-    EXPECT_EQ(read(table.text()).trace.rows.size(), 3u);
+    EXPECT_EQ(read(table.text()).frames.size(), 3u);
 }
 
 TEST(Quirks, FilesPutTogetherFindTheirColumnsAgain) {
@@ -106,7 +106,7 @@ TEST(Quirks, FilesPutTogetherFindTheirColumnsAgain) {
         std::swap(other.columns.front(), other.columns.back());
         for (std::vector<std::string>& row : other.rows) std::swap(row.front(), row.back());
         const Recording twice = read(table.text() + other.text());
-        EXPECT_EQ(twice.trace.rows.size(), 2 * once.trace.rows.size());
+        EXPECT_EQ(twice.frames.size(), 2 * once.frames.size());
         EXPECT_NEAR(twice.streams[0].seconds, 2 * once.streams[0].seconds, 1e-12);
         EXPECT_TRUE(has_note(twice, "header found again in line"));
     }
@@ -114,7 +114,7 @@ TEST(Quirks, FilesPutTogetherFindTheirColumnsAgain) {
                          "r.csv:5: found the header of PresentMon 2.x"));
     Table table = presentmon_1();
     table.preamble = {"//GPU=1", "//CPU=2"};
-    EXPECT_EQ(read(table.text() + table.text()).trace.rows.size(), 6u);
+    EXPECT_EQ(read(table.text() + table.text()).frames.size(), 6u);
 }
 
 TEST(Quirks, StreamsAreToldApartAndTheBusiestIsTaken) {
@@ -155,15 +155,15 @@ TEST(Quirks, TimesThatCannotBeAreNaNAndCounted) {
     for (const char* bad : {"-0.5", "-1", "600001", "inf", "1e300", "Infinity"}) {
         table.rows[1][6] = bad;
         const Recording recording = read(table.text());
-        ASSERT_EQ(recording.trace.rows.size(), 3u);
-        EXPECT_TRUE(std::isnan(recording.trace.rows[1].frame_ms)) << bad;
+        ASSERT_EQ(recording.frames.size(), 3u);
+        EXPECT_TRUE(std::isnan(recording.frames[1].frame_ms)) << bad;
         EXPECT_TRUE(has_note(recording, "1 frame with a time not over 0 or over 10 minutes (in line 3)")) << bad;
         EXPECT_NEAR(recording.streams[0].seconds, 0.0324, 1e-12);
     }
     for (const char* untold : {"NA", "na", "N/A", "nan", "", "-1.#IND", "1.#QNAN", "-nan(ind)", "nan(snan)", "null"}) {
         table.rows[1][6] = untold;
         const Recording recording = read(table.text());
-        EXPECT_TRUE(std::isnan(recording.trace.rows[1].frame_ms)) << untold;
+        EXPECT_TRUE(std::isnan(recording.frames[1].frame_ms)) << untold;
         EXPECT_TRUE(has_note(recording, "1 frame without a time (in line 3)")) << untold;
     }
 }
@@ -174,8 +174,8 @@ TEST(Quirks, PartsOfAFrameMayBeUntold) {
     table.rows[1][6] = "NA";
     table.rows[2][6] = "-3";
     const Recording recording = read(table.text());
-    for (const TraceRow& row : recording.trace.rows) EXPECT_TRUE(std::isnan(row.cpu_ms));
-    EXPECT_EQ(recording.trace.rows[2].gpu_ms, 3.3);
+    for (const FrameRecord& row : recording.frames) EXPECT_TRUE(std::isnan(row.cpu_ms));
+    EXPECT_EQ(recording.frames[2].gpu_ms, 3.3);
     EXPECT_TRUE(has_note(recording, "1 CPU or GPU time that can't be read, under 0 or over 10 minutes (in line 4)"));
 }
 
@@ -185,9 +185,9 @@ TEST(Quirks, ClocksThatStandOrRunBackGiveNaN) {
     table.rows.push_back({"6", "40"});
     table.rows.push_back({"7", "50"});
     const Recording recording = read(table.text());
-    ASSERT_EQ(recording.trace.rows.size(), 6u);
-    EXPECT_TRUE(std::isnan(recording.trace.rows[3].frame_ms) && std::isnan(recording.trace.rows[4].frame_ms));
-    EXPECT_EQ(recording.trace.rows[5].frame_ms, 10);
+    ASSERT_EQ(recording.frames.size(), 6u);
+    EXPECT_TRUE(std::isnan(recording.frames[3].frame_ms) && std::isnan(recording.frames[4].frame_ms));
+    EXPECT_EQ(recording.frames[5].frame_ms, 10);
 }
 
 Table generated_frames() {
@@ -230,7 +230,7 @@ TEST(Quirks, AFrameIsUnshownExactlyWhereItsRowSaysSo) {
         for (std::vector<std::string>& row : table.rows) row[column] = "16.6";
         table.rows[1][column] = told;
         const Recording recording = read(table.text());
-        EXPECT_EQ(recording.trace.rows.size(), 3u) << "it was rendered";
+        EXPECT_EQ(recording.frames.size(), 3u) << "it was rendered";
         return has_note(recording, "1 frame dropped, never shown (in line 3)");
     };
     constexpr std::size_t displayed = 8;
@@ -257,7 +257,7 @@ TEST(Quirks, DroppedTellsMoreThanTheDisplaysTime) {
         Table table = presentmon_1();
         for (std::vector<std::string>& row : table.rows) row[dropped] = "0";
         table.rows[1][dropped] = told;
-        EXPECT_EQ(read(table.text()).trace.rows.size(), 3u);
+        EXPECT_EQ(read(table.text()).frames.size(), 3u);
         EXPECT_TRUE(has_note(read(table.text()), "1 frame of unknown fate, shown or not (in line 3)")) << told;
         EXPECT_FALSE(has_note(read(table.text()), "dropped")) << told;
     }
@@ -300,10 +300,10 @@ TEST(Quirks, TimesThatAreNotToldAreOfNoPresent) {
         table.rows[0][type] = "AMD_AFMF";
         for (std::vector<std::string>& row : table.rows) row[time] = told;
         const Recording recording = read(table.text());
-        ASSERT_EQ(recording.trace.rows.size(), 2u);
-        EXPECT_NEAR(recording.trace.rows[0].frame_ms, std::stod(table.rows[0][frame_time]) + 16.2, 1e-9)
+        ASSERT_EQ(recording.frames.size(), 2u);
+        EXPECT_NEAR(recording.frames[0].frame_ms, std::stod(table.rows[0][frame_time]) + 16.2, 1e-9)
             << "nothing says that the two rows are of one present";
-        EXPECT_EQ(recording.trace.rows[1].frame_ms, 16.3) << "waiting time is given once";
+        EXPECT_EQ(recording.frames[1].frame_ms, 16.3) << "waiting time is given once";
     }
 }
 
@@ -316,7 +316,7 @@ TEST(Quirks, EveryNameThatATimeHadIsRead) {
             table.columns.push_back(names[i]);
             table.rows[0].push_back(std::to_string(i + 1));
         }
-        return read(table.text()).trace.rows.at(0);
+        return read(table.text()).frames.at(0);
     };
     for (const char* name : {"MsCPUBusy", "CPUBusy", "CpuActive"}) {
         EXPECT_EQ(with({name}).cpu_ms, 1) << name;
@@ -373,12 +373,12 @@ TEST(Quirks, TimesAtTheirLimitsAreKept) {
     table.rows[1][6] = "0";
     table.rows[2][7] = "600000";
     const Recording recording = read(table.text());
-    EXPECT_EQ(recording.trace.rows[0].frame_ms, longest);
-    EXPECT_EQ(recording.trace.rows[1].cpu_ms, 0);
-    EXPECT_EQ(recording.trace.rows[2].gpu_ms, longest);
+    EXPECT_EQ(recording.frames[0].frame_ms, longest);
+    EXPECT_EQ(recording.frames[1].cpu_ms, 0);
+    EXPECT_EQ(recording.frames[2].gpu_ms, longest);
     EXPECT_FALSE(has_note(recording, "NaN"));
     table.rows[2][7] = "600000.1";
-    EXPECT_TRUE(std::isnan(read(table.text()).trace.rows[2].gpu_ms));
+    EXPECT_TRUE(std::isnan(read(table.text()).frames[2].gpu_ms));
 }
 
 TEST(Quirks, StreamsDifferByAnyOfTheirThreeNames) {
@@ -435,12 +435,12 @@ TEST(Quirks, ALastLineCutShortIsLeftOut) {
     const std::string text = table.text();
     const std::string whole_fields = text.substr(0, text.size() - 2);  // within msGPUActive, which is read
     const Recording recording = read(whole_fields);
-    EXPECT_EQ(recording.trace.rows.size(), 3u);
+    EXPECT_EQ(recording.frames.size(), 3u);
     EXPECT_TRUE(has_note(recording, "line 5, the last, is cut short: left out"));
     table.columns.push_back("QPCTime");
     for (std::vector<std::string>& row : table.rows) row.push_back("2076674276");
     const std::string longer = table.text();
-    EXPECT_EQ(read(longer.substr(0, longer.size() - 5)).trace.rows.size(), 4u);  // in a column that is not read
+    EXPECT_EQ(read(longer.substr(0, longer.size() - 5)).frames.size(), 4u);  // in a column that is not read
 }
 
 TEST(Quirks, RubbishIsRefusedByItsLine) {

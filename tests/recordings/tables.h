@@ -54,7 +54,7 @@ inline std::string refusal(const std::string& text, const RecordingOptions& opti
 
 inline std::vector<double> frame_times(const Recording& recording) {
     std::vector<double> times;
-    for (const TraceRow& row : recording.trace.rows) times.push_back(row.frame_ms);
+    for (const FrameRecord& frame : recording.frames) times.push_back(frame.frame_ms);
     return times;
 }
 

@@ -66,6 +66,17 @@ TEST(Replay, FramesWithoutATimeAreNotObserved) {
     EXPECT_EQ(law.status().bad_samples, 0);
 }
 
+// As of recordings that keep no rows: one row for all, made anew.
+TEST(Replay, RowsMayBeMadeAsTheyAreAskedFor) {
+    const auto rows = recorded(2);
+    const RunRows made{rows.size(), [&rows, row = TraceRow()](std::size_t i) mutable -> const TraceRow& {
+                           row = rows[i];
+                           return row;
+                       }};
+    PaperLaw law;
+    EXPECT_FALSE(first_difference(rows, replay(law, made, 2)));
+}
+
 TEST(Replay, OpenLoopTheLawStillMoves) {
     auto rows = recorded(2);
     for (TraceRow& row : rows) row.decision = {};  // as if everything had been forced to state 0
