@@ -1,5 +1,6 @@
 #include "sfsm/recordings/capframex_json.h"
 
+#include <algorithm>
 #include <array>
 #include <iterator>
 #include <limits>
@@ -17,15 +18,26 @@ namespace {
 constexpr std::string_view expected =
     ", expected CapFrameX's \"Runs\" with \"MsBetweenPresents\" in their \"CaptureData\"";
 
-// The arrays that are read. CPU and GPU times have one of two names.
-enum Array { presents, dropped, cpu, gpu };
-constexpr std::array<std::pair<std::string_view, Array>, 6> array_names = {{{"MsBetweenPresents", presents},
-                                                                            {"Dropped", dropped},
-                                                                            {"CpuActive", cpu},
-                                                                            {"MsCPUBusy", cpu},
-                                                                            {"GpuActive", gpu},
-                                                                            {"MsGPUBusy", gpu}}};
-using Run = std::array<std::vector<double>, 4>;
+// The arrays that are read; some have one of two names. Those from `display_change` on may be of another length, and
+// are then left out.
+enum Array { presents, dropped, cpu, gpu, display_change, animation_error, present_seconds, in_present };
+constexpr std::array<std::pair<std::string_view, Array>, 11> array_names = {{{"MsBetweenPresents", presents},
+                                                                             {"Dropped", dropped},
+                                                                             {"CpuActive", cpu},
+                                                                             {"MsCPUBusy", cpu},
+                                                                             {"GpuActive", gpu},
+                                                                             {"MsGPUBusy", gpu},
+                                                                             {"MsBetweenDisplayChange", display_change},
+                                                                             {"MsAnimationError", animation_error},
+                                                                             {"AnimationError", animation_error},
+                                                                             {"TimeInSeconds", present_seconds},
+                                                                             {"MsInPresentAPI", in_present}}};
+using Run = std::array<std::vector<double>, 8>;
+
+std::string_view name_of(Array array) {
+    return std::find_if(array_names.begin(), array_names.end(), [&](const auto& name) { return name.second == array; })
+        ->first;
+}
 
 // A file's bytes, with null for numbers that JSON hasn't but files have: NaN, Infinity, -Infinity.
 class Source {
@@ -199,21 +211,58 @@ double part(const Run& run, Array array, std::size_t i) {
     return run[array].empty() ? std::numeric_limits<double>::quiet_NaN() : run[array][i];
 }
 
-StreamFrames to_stream(const Run& run, const LineReader& lines) {
-    StreamFrames stream;
+void check_lengths(Run& run, StreamFrames& stream, const LineReader& lines) {
     for (const Array array : {dropped, cpu, gpu}) {
         if (run[array].empty() || run[array].size() == run[presents].size()) continue;
         lines.fail("found arrays of " + std::to_string(run[presents].size()) + " and " +
                    std::to_string(run[array].size()) + " entries in a run, expected all of one length");
     }
+    for (const Array array : {display_change, animation_error, present_seconds, in_present}) {
+        if (run[array].empty() || run[array].size() == run[presents].size()) continue;
+        stream.notes.push_back(std::string(name_of(array)) + " has " + std::to_string(run[array].size()) +
+                               " entries, not " + std::to_string(run[presents].size()) + ": left out");
+        run[array] = {};
+    }
+}
+
+FrameRecord::Fate fate(const Run& run, std::size_t i, StreamFrames& stream, std::int64_t entry) {
+    if (run[dropped].empty()) return FrameRecord::Fate::untold;
+    if (run[dropped][i] == 0) return FrameRecord::Fate::shown;
+    if (run[dropped][i] != 1) return FrameRecord::Fate::untold;
+    stream.unshown.add(entry);
+    return FrameRecord::Fate::dropped;
+}
+
+DisplayRow display_row(const Run& run, std::size_t i) {
+    constexpr double ms_per_s = 1000;
+    DisplayRow row;
+    row.display_ms = part(run, display_change, i);
+    row.present_ms = ms_per_s * part(run, present_seconds, i);
+    row.in_present_ms = part(run, in_present, i);
+    return row;
+}
+
+StreamFrames to_stream(Run& run, const LineReader& lines) {
+    StreamFrames stream;
+    check_lengths(run, stream, lines);
+    const bool computes_errors = run[animation_error].empty();
     stream.frames.reserve(run[presents].size());
     for (std::size_t i = 0; i < run[presents].size(); ++i) {
         const std::int64_t entry = static_cast<std::int64_t>(i) + 1;
-        if (is_shown_again(stream, run[presents][i], entry)) continue;
-        if (part(run, dropped, i) == 1) stream.unshown.add(entry);
-        const FrameRecord told{run[presents][i], part(run, cpu, i), part(run, gpu, i)};
+        const DisplayRow display = display_row(run, i);
+        if (is_shown_again(stream, run[presents][i], entry)) {
+            stream.display.add_generated(display);
+            continue;
+        }
+        FrameRecord told{run[presents][i], part(run, cpu, i), part(run, gpu, i)};
+        told.fate = fate(run, i, stream, entry);
+        told.display_ms = static_cast<float>(stream.display.add(display, told, {false, computes_errors}));
+        if (told.fate != FrameRecord::Fate::dropped)
+            told.animation_error_ms = static_cast<float>(part(run, animation_error, i));
         add_frame(stream, usable_frame(told, stream, entry), 0);
     }
+    if (stream.display.finish(stream.frames))
+        stream.notes.push_back(computed_note("TimeInSeconds + MsInPresentAPI", "MsBetweenDisplayChange"));
     return stream;
 }
 
@@ -227,7 +276,7 @@ Collected read_capframex_json(LineReader& lines) {
     collected.format = "CapFrameX JSON";
     collected.settings = events.info;
     collected.place = "entry";
-    for (const Run& run : events.runs) {
+    for (Run& run : events.runs) {
         StreamFrames& stream = collected.streams.emplace_back(to_stream(run, lines));
         if (const auto name = events.info.find("ProcessName"); name != events.info.end()) stream.process = name->second;
         if (events.runs.size() > 1) stream.swap_chain = "run " + std::to_string(collected.streams.size());

@@ -55,6 +55,7 @@ public:
 private:
     void seek_header(std::string_view line);
     void keep_preamble(std::string_view line);
+    bool has_simulation_start() const;
     void begin_table(const Header& header, std::string_view line);
     void read_preamble();
     void note_preamble(const Format& format);
@@ -66,15 +67,18 @@ private:
     void take_row(double told);
     void take_present(double told_ms);
     bool is_no_frame(StreamFrames& stream, double told_ms);
-    void take_fate(StreamFrames& stream);
+    FrameRecord::Fate fate(StreamFrames& stream);
+    DisplayRow display_row(StreamFrames& stream) const;
     void take_raw(double told);
     void finish_raw();
     void check_unreadable() const;
     void forget_untracked_displays();
+    void finish_displays();
     void append_notes();
 
     double number(Column column) const;
     double part(Column column, StreamFrames& stream) const;
+    double detail(Column column, StreamFrames& stream) const;
     std::size_t present() const;
     [[noreturn]] void fail_without_header() const;
 
@@ -90,7 +94,7 @@ private:
     std::int64_t rows_ = 0;
     Tally unreadable_, repeated_headers_, before_header_;
     std::string first_fault_, first_before_header_;
-    bool has_display_times_ = false;
+    bool has_display_times_ = false, has_simulation_start_ = false;
 
     StreamTable table_;
     Collected collected_;
@@ -113,6 +117,7 @@ Collected CsvReader::read() {
     }
     finish_raw();
     forget_untracked_displays();
+    finish_displays();
     append_notes();
     collected_.streams = std::move(table_.streams());
     return std::move(collected_);
@@ -150,6 +155,8 @@ void CsvReader::begin_table(const Header& header, std::string_view line) {
     }
     header_ = header;
     row_.emplace(*header_);
+    has_simulation_start_ = has_simulation_start();
+    for (StreamFrames& stream : table_.streams()) stream.display.begin_again();
     is_first_ = true;
     preamble_.clear();
     is_seeking_ = false;
@@ -191,8 +198,10 @@ void CsvReader::take_line(std::string_view line) {
     std::optional<double> told;
     if (result == Result::good) told = told_number(row_->text(Column::frame_time));
     if (told) {
-        const bool is_cut = !lines_.has_line_end() && !row_->is_closed();
-        return is_cut ? collected_.notes.push_back(cut_line_note(lines_)) : take_row(*told);
+        if (lines_.has_line_end()) return take_row(*told);
+        if (!row_->is_closed()) return collected_.notes.push_back(cut_line_note(lines_));
+        row_->forget_last();
+        return take_row(*told);
     }
     if (begins_again(line)) return;
     if (!lines_.has_line_end() && (result == Result::too_short || !row_->is_closed())) {
@@ -274,14 +283,41 @@ void CsvReader::take_present(double told_ms) {
     StreamFrames& stream =
         table_.find(row_->text(Column::process), row_->text(Column::process_id), row_->text(Column::swap_chain));
     FrameRecord told{told_ms, part(Column::cpu, stream), part(Column::gpu, stream)};
+    told.animation_error_ms = static_cast<float>(detail(Column::animation_error, stream));
+    told.compilations = static_cast<float>(detail(Column::compilations, stream));
     if (header_->has(Column::frame_rest)) {
         told.cpu_ms = told_ms;
         told.frame_ms += number(Column::frame_rest);
     }
     stream.span.extend(lines_.number(), row_->text(Column::present_time));
-    if (is_no_frame(stream, told.frame_ms)) return;
-    take_fate(stream);
+    const DisplayRow display = display_row(stream);
+    if (is_no_frame(stream, told.frame_ms)) return stream.display.add_generated(display);
+    told.fate = fate(stream);
+    told.display_ms = static_cast<float>(
+        stream.display.add(display, told, {header_->has(Column::displayed_time), has_simulation_start_}));
+    if (told.fate == FrameRecord::Fate::dropped) told.animation_error_ms = FrameRecord().animation_error_ms;
     add_frame(stream, usable_frame(told, stream, lines_.number()), present());
+}
+
+bool CsvReader::has_simulation_start() const {
+    const bool has_display = header_->has(Column::display_change) || header_->has(Column::displayed_time);
+    const bool has_present = header_->has(Column::present_seconds) && header_->has(Column::in_present);
+    return has_display && (has_present || header_->has(Column::animation_time) ||
+                           header_->has(Column::simulation_step) || header_->has(Column::cpu_start));
+}
+
+DisplayRow CsvReader::display_row(StreamFrames& stream) const {
+    DisplayRow row;
+    row.display_ms = detail(Column::display_change, stream);
+    if (header_->has(Column::displayed_time)) row.display_ms = detail(Column::displayed_time, stream);
+    if (!has_simulation_start_) return row;
+    constexpr double ms_per_s = 1000;
+    row.animation_ms = number(Column::animation_time);
+    row.step_ms = number(Column::simulation_step);
+    row.cpu_start_ms = number(Column::cpu_start);
+    row.present_ms = ms_per_s * number(Column::present_seconds);
+    row.in_present_ms = number(Column::in_present);
+    return row;
 }
 
 // Whether the row only shows what another generated, or what was rendered before.
@@ -304,23 +340,26 @@ bool CsvReader::is_no_frame(StreamFrames& stream, double told_ms) {
 }
 
 // Whether the frame was ever shown.
-void CsvReader::take_fate(StreamFrames& stream) {
-    const std::string_view dropped = row_->text(Column::dropped);
-    if (dropped == "0") return;
-    if (header_->has(Column::dropped)) {
-        if (dropped == "1" || same_name(dropped, "true")) {
-            stream.unshown.add(lines_.number());
-        } else if (!dropped.empty() && !same_name(dropped, "false") && !is_not_available(dropped)) {
-            stream.unknown_fate.add(lines_.number());
-        }
-        return;
-    }
+FrameRecord::Fate CsvReader::fate(StreamFrames& stream) {
+    using Fate = FrameRecord::Fate;
+    const auto dropped = [&] {
+        stream.unshown.add(lines_.number());
+        return Fate::dropped;
+    };
+    const auto unknown_fate = [&] {
+        stream.unknown_fate.add(lines_.number());
+        return Fate::untold;
+    };
+    const std::string_view told = row_->text(Column::dropped);
+    if (told == "0" || same_name(told, "false")) return Fate::shown;
+    if (told == "1" || same_name(told, "true")) return dropped();
+    if (header_->has(Column::dropped)) return told.empty() || is_not_available(told) ? Fate::untold : unknown_fate();
     const std::string_view displayed = row_->text(Column::displayed);
-    if (displayed.empty()) return;
+    if (displayed.empty()) return Fate::untold;
     const std::optional<double> time = told_number(displayed);
     has_display_times_ = has_display_times_ || (time && *time > 0);
-    if (!time) return stream.unknown_fate.add(lines_.number());
-    if (std::isnan(*time) || *time == 0) stream.unshown.add(lines_.number());
+    if (!time) return unknown_fate();
+    return std::isnan(*time) || *time == 0 ? dropped() : Fate::shown;
 }
 
 // A row that means nothing before all are known.
@@ -342,6 +381,22 @@ void CsvReader::finish_raw() {
     }
 }
 
+// Animation errors that aren't recorded.
+void CsvReader::finish_displays() {
+    constexpr std::array<Column, simulation_starts> columns = {Column::animation_time, Column::simulation_step,
+                                                               Column::cpu_start, Column::in_present};
+    const bool is_shown_for = header_->has(Column::displayed_time);
+    for (StreamFrames& stream : table_.streams()) {
+        const std::optional<SimulationStart> start = stream.display.finish(stream.frames);
+        if (!start) continue;
+        const std::string present =
+            *start == SimulationStart::present_end ? header_->name(Column::present_seconds) + " + " : "";
+        stream.notes.push_back(
+            computed_note(present + header_->name(columns[static_cast<std::size_t>(*start)]),
+                          header_->name(is_shown_for ? Column::displayed_time : Column::display_change)));
+    }
+}
+
 // Where no row has a display's time, it wasn't recorded.
 void CsvReader::forget_untracked_displays() {
     if (header_->has(Column::dropped) || has_display_times_) return;
@@ -349,6 +404,7 @@ void CsvReader::forget_untracked_displays() {
     for (StreamFrames& stream : table_.streams()) {
         is_forgotten = is_forgotten || stream.unshown.count > 0;
         stream.unshown = {};
+        for (FrameRecord& frame : stream.frames) frame.fate = FrameRecord::Fate::untold;
     }
     if (!is_forgotten) return;
     collected_.notes.push_back(header_->name(Column::displayed) +
@@ -380,6 +436,12 @@ double CsvReader::number(Column column) const {
 double CsvReader::part(Column column, StreamFrames& stream) const {
     const std::optional<double> told = told_number(row_->text(column));
     if (!told) stream.unusable_parts.add(lines_.number());
+    return told.value_or(unknown);
+}
+
+double CsvReader::detail(Column column, StreamFrames& stream) const {
+    const std::optional<double> told = told_number(row_->text(column));
+    if (!told) stream.unusable_details.add(lines_.number());
     return told.value_or(unknown);
 }
 

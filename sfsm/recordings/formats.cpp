@@ -64,6 +64,15 @@ const std::vector<Names>& other_columns() {
         {Column::present_time,
          {"TimeInSeconds", "TimeInMs", "TimeInQPC", "TimeInDateTime", "QPCTime", "CPUStartTime", "CPUStartTimeInMs",
           "CPUStartQPC", "CPUStartQPCTime", "CPUStartQPCTimeInMs", "CPUStartDateTime"}},
+        {Column::display_change, {"MsBetweenDisplayChange"}},
+        {Column::displayed_time, {"DisplayedTime"}},
+        {Column::animation_error, {"MsAnimationError", "AnimationError"}},
+        {Column::compilations, {"PsoCompileCount"}},
+        {Column::animation_time, {"AnimationTime", "MsAnimationTime"}},
+        {Column::simulation_step, {"MsBetweenSimulationStart"}},
+        {Column::cpu_start, {"CPUStartTime", "CPUStartTimeInMs", "CPUStartQPCTimeInMs", "CPUStartQPCTime"}},
+        {Column::present_seconds, {"TimeInSeconds"}},
+        {Column::in_present, {"MsInPresentAPI"}},
         {Column::fps, {"fps"}},
         {Column::elapsed, {"elapsed"}},
         {Column::record, {"02"}},
@@ -100,6 +109,14 @@ void drop(Header& header, Column column) {
     header.position[static_cast<std::size_t>(column)].reset();
 }
 
+// Of what animation errors are computed, where they aren't told.
+void drop_simulation_starts(Header& header) {
+    for (const Column column : {Column::animation_time, Column::simulation_step, Column::cpu_start,
+                                Column::present_seconds, Column::in_present}) {
+        drop(header, column);
+    }
+}
+
 Header place_columns(const Format& format, char separator, const std::vector<std::string>& fields,
                      const LineReader& place) {
     Header header{&format, separator, fields.size(), {format.unit, ColumnMeaning::Sense::frames}, false, {}, {}};
@@ -112,6 +129,8 @@ Header place_columns(const Format& format, char separator, const std::vector<std
     }
     if (header.has(Column::dropped)) drop(header, Column::displayed);
     if (header.has(Column::frame_rest)) drop(header, Column::cpu);  // it is the frame time's first part
+    if (header.has(Column::display_change)) drop(header, Column::displayed_time);
+    if (header.has(Column::animation_error)) drop_simulation_starts(header);
     return header;
 }
 

@@ -30,8 +30,22 @@ enum class Column {
     fps,
     elapsed,  // [ns]
     record,   // what a line is: of Afterburner's own files
+
+    // Rows may end before these.
+    display_change,   // [ms] from the display's change before to the one that shows the frame
+    displayed_time,   // [ms] how long it was shown
+    animation_error,  // [ms]
+    compilations,     // how many shaders or pipelines
+    animation_time,   // [ms] when its simulation began
+    simulation_step,  // [ms] since the one before began
+    cpu_start,        // [ms] when the CPU began with it
+    present_seconds,  // [s] when Present() was called
+    in_present,       // [ms] how long it took
 };
-inline constexpr std::size_t column_count = 14;
+inline constexpr std::size_t column_count = 23;
+constexpr bool may_be_missing(Column column) {
+    return column >= Column::display_change;
+}
 
 enum class Rows {
     presents,  // one a present

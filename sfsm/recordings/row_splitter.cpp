@@ -55,32 +55,33 @@ std::vector<std::string> split_fields(std::string_view line, char separator) {
 }
 
 RowSplitter::RowSplitter(const Header& header) : separator_(header.separator), header_fields_(header.fields) {
+    constexpr std::uint8_t unread = 1;
+    std::uint8_t next = unread + 1;
     for (std::size_t column = 0; column < column_count; ++column) {
         if (!header.position[column]) continue;
         const std::size_t position = *header.position[column];
-        if (slots_.size() <= position) slots_.resize(position + 1, -1);
-        slots_[position] = static_cast<std::int8_t>(column);
+        if (slots_.size() <= position) slots_.resize(position + 1, unread);
+        if (slots_[position] == unread) slots_[position] = next++;
+        slot_of_[column] = slots_[position];
+        if (!may_be_missing(static_cast<Column>(column))) needed_ = std::max(needed_, position + 1);
     }
 }
 
 RowSplitter::Result RowSplitter::split(std::string_view line) {
     const char* at = line.data();
     const char* const end = at + line.size();
-    std::string skipped;
     for (fields_ = 0; fields_ < slots_.size(); ++fields_) {
         if (fields_ > 0) {
-            if (at == end) return Result::too_short;
+            if (at == end) break;
             ++at;
         }
-        const std::int8_t slot = slots_[fields_];
-        if (slot < 0) {
-            field(at, end, separator_, skipped);
-        } else {
-            texts_[static_cast<std::size_t>(slot)] =
-                field(at, end, separator_, unquoted_[static_cast<std::size_t>(slot)]);
-        }
+        last_ = slots_[fields_];
+        texts_[last_] = field(at, end, separator_, unquoted_[last_]);
+        if (fields_ + 1 == needed_) is_closed_ = at != end;
     }
-    is_closed_ = at != end;
+    if (fields_ < needed_) return Result::too_short;
+    for (std::size_t i = fields_; i < slots_.size(); ++i) texts_[slots_[i]] = {};
+    if (at != end) last_ = 0;
     return is_too_long(at, end) ? Result::too_long : Result::good;
 }
 

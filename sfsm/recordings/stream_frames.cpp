@@ -19,6 +19,12 @@ double part(double told, StreamFrames& stream, std::int64_t place) {
     return FrameRecord::untold;
 }
 
+float detail(float told, bool is_usable, StreamFrames& stream, std::int64_t place) {
+    if (std::isnan(told) || is_usable) return told;
+    stream.unusable_details.add(place);
+    return std::numeric_limits<float>::quiet_NaN();
+}
+
 // What was shown, beside what was rendered.
 std::string rates(const StreamFrames& stream) {
     const double seconds = stream.seconds();
@@ -86,6 +92,10 @@ FrameRecord usable_frame(FrameRecord told, StreamFrames& stream, std::int64_t pl
     }
     told.cpu_ms = part(told.cpu_ms, stream, place);
     told.gpu_ms = part(told.gpu_ms, stream, place);
+    const bool is_error = std::abs(told.animation_error_ms) <= longest_ms;
+    told.animation_error_ms = detail(told.animation_error_ms, is_error, stream, place);
+    const bool is_count = told.compilations >= 0 && std::isfinite(told.compilations);
+    told.compilations = detail(told.compilations, is_count, stream, place);
     return told;
 }
 
@@ -117,6 +127,11 @@ std::vector<std::string> all_notes(const StreamFrames& stream, std::string_view 
         notes.push_back(counted(stream.unusable_parts.count, "CPU or GPU time", "CPU or GPU times") +
                         " that can't be read, under 0 or over 10 minutes" + first_in(stream.unusable_parts, place) +
                         ": taken as NaN");
+    }
+    if (stream.unusable_details.count > 0) {
+        notes.push_back(counted(stream.unusable_details.count, "display time, animation error or count",
+                                "display times, animation errors or counts") +
+                        " that can't be read or be so" + first_in(stream.unusable_details, place) + ": taken as NaN");
     }
     append_generated_notes(notes, stream, place);
     notes.insert(notes.end(), stream.notes.begin(), stream.notes.end());

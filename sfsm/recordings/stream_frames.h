@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "sfsm/recordings/display_times.h"
 #include "sfsm/recordings/frame_record.h"
 #include "sfsm/recordings/raw_times.h"
 
@@ -58,7 +59,9 @@ struct StreamFrames {
     std::vector<FrameRecord> frames;
     std::vector<RawTime> raw;  // times that become frames when all are known
 
-    Tally unshown, unknown_fate, untold, unusable, unusable_parts;
+    DisplayTimes display;
+
+    Tally unshown, unknown_fate, untold, unusable, unusable_parts, unusable_details;
     Tally other_types;       // rows of a FrameType that we don't know
     std::string other_type;  // of the first of them
     GeneratedFrames generated;
@@ -76,8 +79,8 @@ void add_generated(StreamFrames& stream, double ms, std::size_t present);
 // of which some tools know no time. Then it is counted, and no frame.
 bool is_shown_again(StreamFrames& stream, double told_ms, std::int64_t place);
 
-// Times of a frame as they are told, into usable ones: a frame's in (0, 10 min], a part's in [0, 10 min], else NaN and
-// counted. `place` as in Tally.
+// What is told of a frame, into what is usable: a frame's time in (0, 10 min], a part's in [0, 10 min], an animation
+// error of 10 min at most, a count not under 0, else NaN and counted. `place` as in Tally.
 FrameRecord usable_frame(FrameRecord told, StreamFrames& stream, std::int64_t place);
 
 std::string counted(std::int64_t count, const char* one, const char* several);

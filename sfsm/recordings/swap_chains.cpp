@@ -52,7 +52,7 @@ void append(StreamFrames& stream, StreamFrames&& next) {
     stream.frames.insert(stream.frames.end(), next.frames.begin(), next.frames.end());
     for (Tally StreamFrames::*tally :
          {&StreamFrames::unshown, &StreamFrames::unknown_fate, &StreamFrames::untold, &StreamFrames::unusable,
-          &StreamFrames::unusable_parts, &StreamFrames::other_types}) {
+          &StreamFrames::unusable_parts, &StreamFrames::unusable_details, &StreamFrames::other_types}) {
         (stream.*tally).add(next.*tally);
     }
     if (stream.other_type.empty()) stream.other_type = next.other_type;
