@@ -98,6 +98,7 @@ void place_column(Header& header, Column column, std::string_view name, const st
     for (std::size_t i = 0; i < fields.size() && !name.empty(); ++i) {
         if (!same_name(fields[i], name)) continue;
         if (header.position[index]) {
+            if (may_be_missing(column)) return;
             place.fail("found two columns '" + std::string(name) + "', expected one");
         }
         header.position[index] = i;

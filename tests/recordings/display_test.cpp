@@ -97,6 +97,8 @@ TEST(Display, RowsMayEndBeforeWhatIsToldOnlyOfSome) {
     EXPECT_EQ(recording.frames[0].compilations, 2);
     EXPECT_TRUE(std::isnan(recording.frames[1].animation_error_ms)) << "nor is it the row's before";
     EXPECT_EQ(recording.frames[2].animation_error_ms, 0.25f);
+    EXPECT_EQ(read_log({"Dropped", "PsoCompileCount", "PsoCompileCount"}, {{"0", "1", "2"}}).frames[0].compilations, 1)
+        << "nor is a column twice refused";
     std::string cut = Log{columns, {{"0", "", "0.5", "2"}, {"0", "", "0.25"}}}.text();
     cut.pop_back();
     EXPECT_EQ(read(cut).frames.size(), 2u);
