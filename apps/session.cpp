@@ -28,7 +28,8 @@ void say(const std::string& line) {
 }
 
 std::string describe(const sfsm::Stream& stream) {
-    std::string text = stream.process.empty() ? "unnamed" : sfsm::shown(stream.process);
+    const std::string name = sfsm::presentable(stream.process);
+    std::string text = name.empty() ? "unnamed" : sfsm::shown(name);
     for (const std::string& part : {stream.process_id, stream.swap_chain})
         if (!part.empty()) text += " " + sfsm::shown(part);
     return text + " (" + std::to_string(stream.frames) + " frames)";

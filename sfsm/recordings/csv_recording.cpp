@@ -9,6 +9,7 @@
 
 #include "sfsm/line_reader.h"
 #include "sfsm/number_text.h"
+#include "sfsm/recordings/facts.h"
 #include "sfsm/recordings/formats.h"
 #include "sfsm/recordings/mangohud.h"
 #include "sfsm/recordings/row_splitter.h"
@@ -58,7 +59,10 @@ private:
     bool has_simulation_start() const;
     void begin_table(const Header& header, std::string_view line);
     void read_preamble();
+    void read_first_line(const std::vector<std::string>& fields);
     void note_preamble(const Format& format);
+    void seek_machine(std::string_view header);
+    void take_machine(std::string_view line);
     void take_line(std::string_view line);
     bool is_aside(std::string_view line);
     bool begins_again(std::string_view line);
@@ -94,6 +98,7 @@ private:
     std::int64_t rows_ = 0;
     Tally unreadable_, repeated_headers_, before_header_;
     std::string first_fault_, first_before_header_;
+    std::vector<std::pair<std::size_t, std::string>> machine_;  // columns on it that are still to be found told
     bool has_display_times_ = false, has_simulation_start_ = false;
 
     StreamTable table_;
@@ -156,6 +161,7 @@ void CsvReader::begin_table(const Header& header, std::string_view line) {
     header_ = header;
     row_.emplace(*header_);
     has_simulation_start_ = has_simulation_start();
+    seek_machine(line);
     for (StreamFrames& stream : table_.streams()) stream.display.begin_again();
     is_first_ = true;
     preamble_.clear();
@@ -172,6 +178,8 @@ void CsvReader::read_preamble() {
                 without_blanks(line.substr(equals + 1));
         }
         if (line.starts_with("01,")) collected_.settings["GPU"] = split_fields(line, ',').back();
+        if (line.starts_with("00,")) read_first_line(split_fields(line, ','));
+        if (i > 0 && preamble_[i - 1] == "v1") collected_.told["AppVersion"] = line;
         if (!line.starts_with("os,") || i + 1 == preamble_.size()) continue;
         const std::vector<std::string> keys = split_fields(line, ','), values = split_fields(preamble_[i + 1], ',');
         for (std::size_t k = 0; keys.size() == values.size() && k < keys.size(); ++k) {
@@ -180,11 +188,43 @@ void CsvReader::read_preamble() {
     }
 }
 
+// Afterburner's: when and by what.
+void CsvReader::read_first_line(const std::vector<std::string>& fields) {
+    if (fields.size() < 3) return;
+    collected_.told["CreationDate"] = fields[1];
+    collected_.told["AppVersion"] = fields.back();
+}
+
+// Columns on the machine, which stand in the first row or in each.
+void CsvReader::seek_machine(std::string_view header) {
+    machine_.clear();
+    if (header_->format->rows != Rows::presents) return;
+    const std::vector<std::string> fields = split_fields(header, header_->separator);
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+        for (const char* name : {"GPU", "CPU", "Processor", "OS", "System RAM", "Driver Package"}) {
+            if (same_name(fields[i], name)) machine_.emplace_back(i, name);
+        }
+    }
+}
+
+void CsvReader::take_machine(std::string_view line) {
+    constexpr std::int64_t most_rows = 100;
+    const std::vector<std::string> fields = split_fields(line, header_->separator);
+    std::erase_if(machine_, [&](const auto& column) {
+        const auto& [position, name] = column;
+        if (position >= fields.size() || told_number(fields[position])) return false;  // or it says nothing, or no name
+        collected_.told[name] = fields[position];
+        return true;
+    });
+    if (rows_ >= most_rows) machine_.clear();
+}
+
 // What a recorder said on the console, say.
 void CsvReader::note_preamble(const Format& format) {
     const bool has_lines = format.rows == Rows::samples || format.lines == Format::Lines::afterburner;
     if (has_lines || preamble_.empty() || is_comment(suspect_text_)) return;
-    first_before_header_ = shown(suspect_text_);
+    const std::string said = presentable(suspect_text_);
+    first_before_header_ = said.empty() ? "" : ", " + shown(said);
     before_header_.first = suspect_;
     before_header_.count =
         std::count_if(preamble_.begin(), preamble_.end(), [](const std::string& line) { return !is_comment(line); });
@@ -198,6 +238,7 @@ void CsvReader::take_line(std::string_view line) {
     std::optional<double> told;
     if (result == Result::good) told = told_number(row_->text(Column::frame_time));
     if (told) {
+        if (!machine_.empty()) take_machine(line);
         if (lines_.has_line_end()) return take_row(*told);
         if (!row_->is_closed()) return collected_.notes.push_back(cut_line_note(lines_));
         row_->forget_last();
@@ -290,6 +331,11 @@ void CsvReader::take_present(double told_ms) {
         told.frame_ms += number(Column::frame_rest);
     }
     stream.span.extend(lines_.number(), row_->text(Column::present_time));
+    if (stream.frames.empty()) {
+        stream.runtime = row_->text(Column::runtime);
+        stream.resolution = row_->text(Column::resolution);
+    }
+    stream.present_modes.add(row_->text(Column::present_mode));
     const DisplayRow display = display_row(stream);
     if (is_no_frame(stream, told.frame_ms)) return stream.display.add_generated(display);
     told.fate = fate(stream);
@@ -415,7 +461,7 @@ void CsvReader::append_notes() {
     std::vector<std::string>& notes = collected_.notes;
     if (before_header_.count > 0) {
         notes.push_back(counted(before_header_.count, "line", "lines") + " before the header, from line " +
-                        std::to_string(before_header_.first) + ", " + first_before_header_ + ": left out");
+                        std::to_string(before_header_.first) + first_before_header_ + ": left out");
     }
     if (unreadable_.count > 0) {
         notes.push_back(counted(unreadable_.count, "row", "rows") + " that can't be read, the first in line " +

@@ -41,8 +41,11 @@ enum class Column {
     cpu_start,        // [ms] when the CPU began with it
     present_seconds,  // [s] when Present() was called
     in_present,       // [ms] how long it took
+    runtime,
+    resolution,
+    present_mode,
 };
-inline constexpr std::size_t column_count = 23;
+inline constexpr std::size_t column_count = 26;
 constexpr bool may_be_missing(Column column) {
     return column >= Column::display_change;
 }

@@ -44,6 +44,7 @@ Recording our_recording(LineReader& lines) {
     Recording recording;
     recording.format = "trace";
     recording.trace = read_trace(lines);
+    recording.facts = facts_of_trace(recording.trace.settings);
     if (recording.trace.is_cut) recording.notes.push_back(cut_line_note(lines));
     if (recording.trace.rows.empty())
         lines.fail("found no whole row behind the header of a trace, expected at least one");
@@ -125,6 +126,13 @@ bool asks_for_chain(const std::vector<StreamFrames>& streams, const RecordingOpt
            std::any_of(streams.begin(), streams.end(), has_chain);
 }
 
+Told told_of(const Collected& collected, const StreamFrames& stream) {
+    Told told{collected.format,  stream.process, stream.runtime, stream.resolution, stream.present_modes.text(),
+              collected.settings};
+    told.settings.insert(collected.told.begin(), collected.told.end());
+    return told;
+}
+
 // Of what a tool has recorded: the chosen stream.
 Recording to_recording(Collected collected, const std::string& name, const RecordingOptions& options) {
     std::vector<StreamFrames>& streams = collected.streams;
@@ -141,6 +149,7 @@ Recording to_recording(Collected collected, const std::string& name, const Recor
         throw std::runtime_error(name + ": found no frame of " + recording.format +
                                  (type.empty() ? "" : " but those of FrameType " + type) + ", expected at least one");
     }
+    recording.facts = facts_of(told_of(collected, chosen));
     recording.trace.name = name;
     recording.trace.settings = std::move(collected.settings);
     recording.trace.settings["format"] = recording.format;

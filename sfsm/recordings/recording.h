@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "sfsm/recordings/facts.h"
 #include "sfsm/recordings/frame_record.h"
 #include "sfsm/recordings/raw_times.h"
 #include "sfsm/trace.h"
@@ -34,6 +35,7 @@ struct Recording {
     // told), and what the file says of itself before its header.
     Trace trace;
 
+    Facts facts;                     // of the run and the machine
     std::vector<Stream> streams;     // all in the file, most frames first; one nameless where the tool has no processes
     std::size_t chosen = 0;          // of them
     std::vector<std::string> notes;  // what was left out or put together, a line each, with counts and line numbers

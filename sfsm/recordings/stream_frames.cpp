@@ -1,5 +1,6 @@
 #include "sfsm/recordings/stream_frames.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -136,6 +137,31 @@ std::vector<std::string> all_notes(const StreamFrames& stream, std::string_view 
     append_generated_notes(notes, stream, place);
     notes.insert(notes.end(), stream.notes.begin(), stream.notes.end());
     return notes;
+}
+
+void Mostly::add(std::string_view text) {
+    constexpr std::size_t most = 32;
+    if (text.empty()) return;
+    if (last_ >= counts_.size() || counts_[last_].first != text) {
+        const auto is_it = [&](const auto& count) { return count.first == text; };
+        last_ = static_cast<std::size_t>(std::find_if(counts_.begin(), counts_.end(), is_it) - counts_.begin());
+        if (last_ == most) return;
+        if (last_ == counts_.size()) counts_.emplace_back(text, 0);
+    }
+    ++counts_[last_].second;
+}
+
+void Mostly::add(const Mostly& later) {
+    for (const auto& [text, count] : later.counts_) {
+        add(text);
+        if (last_ < counts_.size()) counts_[last_].second += count - 1;
+    }
+}
+
+std::string Mostly::text() const {
+    const auto fewer = [](const auto& a, const auto& b) { return a.second < b.second; };
+    const auto found = std::max_element(counts_.begin(), counts_.end(), fewer);
+    return found == counts_.end() ? "" : found->first;
 }
 
 StreamFrames& StreamTable::find(std::string_view process, std::string_view process_id, std::string_view swap_chain) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "sfsm/recordings/display_times.h"
@@ -54,8 +55,22 @@ struct Span {
     }
 };
 
+// Which of a few texts comes most often.
+class Mostly {
+public:
+    void add(std::string_view text);
+    void add(const Mostly& later);
+    std::string text() const;  // of several the first; empty: none
+
+private:
+    std::vector<std::pair<std::string, std::int64_t>> counts_;
+    std::size_t last_ = 0;
+};
+
 struct StreamFrames {
     std::string process, process_id, swap_chain;  // as the file has them
+    std::string runtime, resolution;              // of the first row
+    Mostly present_modes;
     std::vector<FrameRecord> frames;
     std::vector<RawTime> raw;  // times that become frames when all are known
 
@@ -104,6 +119,7 @@ private:
 struct Collected {
     std::string format;
     std::map<std::string, std::string> settings;  // what the file says of itself
+    std::map<std::string, std::string> told;      // that, of the machine and the recorder, where it isn't by key
     std::vector<StreamFrames> streams;
     std::vector<std::string> notes;  // on the file
     std::string_view place = "line";

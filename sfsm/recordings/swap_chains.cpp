@@ -55,6 +55,7 @@ void append(StreamFrames& stream, StreamFrames&& next) {
           &StreamFrames::unusable_parts, &StreamFrames::unusable_details, &StreamFrames::other_types}) {
         (stream.*tally).add(next.*tally);
     }
+    stream.present_modes.add(next.present_modes);
     if (stream.other_type.empty()) stream.other_type = next.other_type;
     if (stream.generated.type.empty()) stream.generated.type = next.generated.type;
     stream.generated.rows.add(next.generated.rows);
