@@ -1,7 +1,8 @@
 // What people look for in a recording of frame times, as numbers. Frames without a time count for nothing but `frames`.
 //
-// A rate is 1000 over a time: the rate of P1 is that of the time which 99 % of the frames do not exceed. Percentiles
-// are nearest ranks: of n sorted times the one at place ceil(share n), from 1.
+// A rate is 1000 over a time. Percentiles are CapFrameX's (Hyndman and Fan's definition 8): of n frames sorted from the
+// slowest, P1 stands at place (n + 1/3) / 100 + 1/3, but not before the first or behind the last; between two places a
+// rate goes linearly from rate to rate, and a time from time to time.
 #pragma once
 
 #include <array>
@@ -13,10 +14,15 @@
 
 namespace sfsm {
 
-// "1 % low" has three meanings, of which tools show one each [frames/s]: the rate that 99 % of the frames reach; the
-// rate of the mean time of the slowest 1 % of the frames (the last of them in part, at least one); and the rate of the
-// frame at which the slowest frames, longest first, have taken 1 % of all the time (CapFrameX's and MSI Afterburner's
-// integral).
+// Whether it has a time.
+inline bool is_timed(const FrameRecord& frame) {
+    return frame.frame_ms > 0;
+}
+
+// "1 % low" has three meanings, of which tools show one each [frames/s]: P1; the rate of the mean time of the frames
+// that are no faster than the 99th percentile of the times (CapFrameX's "1 % low average"); and the rate of the frame
+// at which the slowest frames, longest first, have taken 1 % of all the time ("1 % low integral", and MSI
+// Afterburner's).
 struct Low {
     double percentile = 0, mean = 0, integral = 0;
 };
@@ -28,13 +34,14 @@ struct Over {
     double share = 0;  // of the frames with a time, [0, 1]
 };
 
-// Who held up the frames whose CPU and GPU times are both told, in shares of their time: the GPU, where it was busy for
-// 90 % of a frame or more and no less than the CPU; else the CPU, where it was busy for 90 % or more; else neither, as
-// frames wait for a display, a cap or a lock.
+// Who held up the frames whose CPU and GPU times are both told, in shares of their time.
 struct Bottleneck {
-    std::int64_t frames = 0;  // with both times; 0: the shares say nothing
+    std::int64_t frames = 0;  // with all three times; 0: the shares are NaN
     double gpu = 0, cpu = 0, neither = 0;
 };
+
+// The GPU, where it was busy for 90 % of the frame or more and no less than the CPU; else the CPU, where it was busy
+// for 90 % or more; else, if both are told, neither, as frames wait for a display, a cap or a lock.
 enum class HeldUpBy { gpu, cpu, neither, untold };
 HeldUpBy held_up_by(const FrameRecord& frame);
 
@@ -45,10 +52,10 @@ struct Figures {
     double average_fps = 0, median_fps = 0, p1_fps = 0, p01_fps = 0, least_fps = 0, most_fps = 0;
     Low low_1, low_01;  // of 1 % and of 0.1 %
     double mean_ms = 0, median_ms = 0, p99_ms = 0, p999_ms = 0, least_ms = 0, most_ms = 0;
-    double mean_step_ms = 0;  // of |time - time before|, of neighbours that both have one
-    std::int64_t stutters = 0;
-    double stutter_share = 0;  // of the time, [0, 1]
-    std::vector<Over> over;    // a limit each, as they are given
+    double mean_step_ms = 0;                        // of |time - time before|, of neighbours that both have one
+    std::int64_t stutters = 0, stutter_window = 0;  // stutters.h; the window in frames
+    double stutter_share = 0;                       // of the time, [0, 1]
+    std::vector<Over> over;                         // a limit each, as they are given
     Bottleneck bottleneck;
     double mean_animation_error_ms = 0;  // of its size, where it is told; else NaN
 };
@@ -56,7 +63,7 @@ struct Figures {
 // 120, 60 and 30 frames a second.
 inline constexpr std::array<double, 3> usual_limits_ms = {1000.0 / 120, 1000.0 / 60, 1000.0 / 30};
 
-// NaN where no frame has a time. O(n log n).
+// Without a frame that has a time: counts 0, no seconds, all else NaN. O(n log n).
 Figures figures_of(std::span<const FrameRecord> frames, std::int64_t generated, std::span<const double> limits_ms);
 
 }  // namespace sfsm

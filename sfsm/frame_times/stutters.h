@@ -1,4 +1,4 @@
-// Frames that stand out from those around them, and why.
+// Frames that stand out from those before them, and why.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +10,15 @@
 
 namespace sfsm {
 
-// A frame stutters if it takes over 2.5 times the mean of the frames around it, as CapFrameX counts.
+// A frame stutters if it takes over 2.5 times the mean of the last frames, it among them, as CapFrameX counts: of the
+// last 10 sqrt(mean time of the run in ms) frames with a time (41 frames at 60 frames/s), fewer at the start.
 inline constexpr double stutter_factor = 2.5;
-inline constexpr double stutter_window_ms = 500;
+std::int64_t stutter_window(double mean_ms);  // [frames], at least 1
 
 // What the log tells of a stutter's cause, the first that holds: it is among the first frames, when a recorder itself
-// holds up what it starts on; shaders were compiled in it; the GPU or the CPU was busy for 90 % of it; or both are told
-// and neither was.
+// holds up what it starts on; shaders were compiled in it; the GPU or the CPU was busy for 90 % of it (held_up_by); or
+// both are told and neither was.
+inline constexpr std::int64_t recorder_frames = 10;
 enum class Cause { recorder, compilation, gpu, cpu, waiting, untold };
 std::string_view name_of(Cause cause);  // for people: "shader compilation"
 
@@ -24,7 +26,7 @@ struct Stutter {
     std::int64_t frame = 0;  // an index
     double begins_ms = 0;    // after the first frame began: the sum of the times before
     double frame_ms = 0;
-    double mean_ms = 0;  // of the frames around it
+    double mean_ms = 0;  // of the last frames, this one among them
     Cause cause = Cause::untold;
 };
 
