@@ -1,0 +1,302 @@
+#include "apps/recording_text.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <iomanip>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "sfsm/number_text.h"
+
+namespace apps {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using sfsm::Figures;
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+Json number(double value) {
+    return std::isfinite(value) ? Json(value) : Json();
+}
+
+Json low_json(const sfsm::Low& low) {
+    return {{"percentile", number(low.percentile)}, {"mean", number(low.mean)}, {"integral", number(low.integral)}};
+}
+
+Json stutter_json(const Figures& figures, std::span<const sfsm::Stutter> stutters) {
+    using sfsm::Cause;
+    constexpr std::array<std::pair<const char*, Cause>, 6> causes = {{{"recorder", Cause::recorder},
+                                                                      {"compilation", Cause::compilation},
+                                                                      {"gpu", Cause::gpu},
+                                                                      {"cpu", Cause::cpu},
+                                                                      {"waiting", Cause::waiting},
+                                                                      {"untold", Cause::untold}}};
+    Json by_cause = Json::object();
+    for (const auto& [key, cause] : causes) {
+        by_cause[key] = std::count_if(stutters.begin(), stutters.end(),
+                                      [&](const sfsm::Stutter& stutter) { return stutter.cause == cause; });
+    }
+    return {{"share", number(figures.stutter_share)},
+            {"count", figures.stutters},
+            {"factor", sfsm::stutter_factor},
+            {"window_frames", figures.stutter_window},
+            {"by_cause", by_cause}};
+}
+
+Json over_json(std::span<const sfsm::Over> limits) {
+    Json json = Json::array();
+    for (const sfsm::Over& over : limits) {
+        json.push_back(
+            Json{{"limit_ms", number(over.limit_ms)}, {"frames", over.frames}, {"share", number(over.share)}});
+    }
+    return json;
+}
+
+Json bottleneck_json(const sfsm::Bottleneck& bottleneck) {
+    return {{"frames", bottleneck.frames},
+            {"gpu", number(bottleneck.gpu)},
+            {"cpu", number(bottleneck.cpu)},
+            {"neither", number(bottleneck.neither)}};
+}
+
+std::string fixed(double value, int digits) {
+    if (!std::isfinite(value)) return "-";
+    std::ostringstream text;
+    text << std::fixed << std::setprecision(digits) << value;
+    return text.str();
+}
+
+std::string with_sign(double percents) {
+    return (percents < 0 ? "" : "+") + fixed(percents, 1);
+}
+
+// Of shares the unit is a hundredth of all, which is no per cent of what was.
+std::string change_text(const sfsm::Difference& difference, double change) {
+    if (!std::isfinite(change)) return "-";
+    return with_sign(100 * change) + (difference.is_share ? " points" : " %");
+}
+
+std::string interval_text(const sfsm::Difference& difference) {
+    if (!std::isfinite(difference.low)) return "-";
+    return with_sign(100 * difference.low) + " to " + change_text(difference, difference.high);
+}
+
+struct TableLine {
+    std::string label;
+    std::vector<std::string> cells;
+};
+
+// The labels to the left, all else to the right.
+void write_table(std::ostream& out, const std::vector<TableLine>& lines) {
+    constexpr std::size_t narrowest = 8;
+    std::size_t label_width = 0;
+    std::vector<std::size_t> widths;
+    for (const TableLine& line : lines) {
+        label_width = std::max(label_width, line.label.size());
+        widths.resize(std::max(widths.size(), line.cells.size()), narrowest);
+        for (std::size_t i = 0; i < line.cells.size(); ++i) widths[i] = std::max(widths[i], line.cells[i].size());
+    }
+    for (const TableLine& line : lines) {
+        out << std::left << std::setw(static_cast<int>(label_width)) << line.label << std::right;
+        for (std::size_t i = 0; i < line.cells.size(); ++i)
+            out << "  " << std::setw(static_cast<int>(widths[i])) << line.cells[i];
+        out << '\n';
+    }
+}
+
+// A line of the table of figures.
+struct Row {
+    std::string label;
+    int digits;
+    std::function<double(const Figures&)> value;
+};
+
+double percent(double share) {
+    return 100 * share;
+}
+
+// What is there or not; none is nothing to say.
+double if_any(std::int64_t count) {
+    return count > 0 ? static_cast<double>(count) : nothing;
+}
+
+std::vector<Row> rate_rows() {
+    return {{"average [fps]", 1, [](const Figures& f) { return f.average_fps; }},
+            {"median [fps]", 1, [](const Figures& f) { return f.median_fps; }},
+            {"P1 [fps]", 1, [](const Figures& f) { return f.p1_fps; }},
+            {"P0.1 [fps]", 1, [](const Figures& f) { return f.p01_fps; }},
+            {"1 % low, mean [fps]", 1, [](const Figures& f) { return f.low_1.mean; }},
+            {"1 % low, integral [fps]", 1, [](const Figures& f) { return f.low_1.integral; }},
+            {"0.1 % low, mean [fps]", 1, [](const Figures& f) { return f.low_01.mean; }},
+            {"0.1 % low, integral [fps]", 1, [](const Figures& f) { return f.low_01.integral; }},
+            {"minimum [fps]", 1, [](const Figures& f) { return f.least_fps; }},
+            {"maximum [fps]", 1, [](const Figures& f) { return f.most_fps; }}};
+}
+
+std::vector<Row> time_rows() {
+    return {{"mean [ms]", 2, [](const Figures& f) { return f.mean_ms; }},
+            {"median [ms]", 2, [](const Figures& f) { return f.median_ms; }},
+            {"99 % within [ms]", 2, [](const Figures& f) { return f.p99_ms; }},
+            {"99.9 % within [ms]", 2, [](const Figures& f) { return f.p999_ms; }},
+            {"longest [ms]", 2, [](const Figures& f) { return f.most_ms; }},
+            {"from frame to frame [ms]", 2, [](const Figures& f) { return f.mean_step_ms; }},
+            {"animation error [ms]", 2, [](const Figures& f) { return f.mean_animation_error_ms; }},
+            {"time in stutter [%]", 2, [](const Figures& f) { return percent(f.stutter_share); }},
+            {"stutters", 0, [](const Figures& f) { return static_cast<double>(f.stutters); }}};
+}
+
+// Recordings that are compared are counted by the same limits.
+std::vector<Row> over_rows(const Figures& first) {
+    std::vector<Row> rows;
+    for (std::size_t i = 0; i < first.over.size(); ++i) {
+        rows.push_back({"over " + fixed(first.over[i].limit_ms, 1) + " ms [%]", 2,
+                        [i](const Figures& f) { return percent(f.over.at(i).share); }});
+    }
+    return rows;
+}
+
+std::vector<Row> count_rows() {
+    return {{"held up by the GPU [%]", 1, [](const Figures& f) { return percent(f.bottleneck.gpu); }},
+            {"held up by the CPU [%]", 1, [](const Figures& f) { return percent(f.bottleneck.cpu); }},
+            {"held up by neither [%]", 1, [](const Figures& f) { return percent(f.bottleneck.neither); }},
+            {"duration [s]", 1, [](const Figures& f) { return f.seconds; }},
+            {"frames", 0, [](const Figures& f) { return static_cast<double>(f.frames); }},
+            {"never shown", 0, [](const Figures& f) { return if_any(f.dropped); }},
+            {"generated besides", 0, [](const Figures& f) { return if_any(f.generated); }}};
+}
+
+std::vector<Row> all_rows(const Figures& first) {
+    std::vector<Row> rows;
+    for (std::vector<Row> some : {rate_rows(), time_rows(), over_rows(first), count_rows()})
+        rows.insert(rows.end(), std::make_move_iterator(some.begin()), std::make_move_iterator(some.end()));
+    return rows;
+}
+
+std::string csv_field(std::string_view text) {
+    std::string field;
+    for (const char c : text) {
+        const bool ends_line = c == '\n' || c == '\r';
+        field += ends_line ? ' ' : c;
+        if (c == '"') field += c;
+    }
+    return field.find_first_of(",;\t\"") == std::string::npos ? field : '"' + field + '"';
+}
+
+void append_told(std::string& line, double value) {
+    line += ',';
+    if (!std::isnan(value)) sfsm::append_number(line, value);
+}
+
+void append_frame(std::string& line, const sfsm::FrameRecord& frame) {
+    using Fate = sfsm::FrameRecord::Fate;
+    for (const double value : {frame.frame_ms, frame.cpu_ms, frame.gpu_ms, static_cast<double>(frame.display_ms),
+                               static_cast<double>(frame.animation_error_ms)})
+        append_told(line, value);
+    line += frame.fate == Fate::untold ? "," : frame.fate == Fate::dropped ? ",1" : ",0";
+    append_told(line, static_cast<double>(frame.compilations));
+    line += '\n';
+}
+
+}  // namespace
+
+Json figures_json(const Figures& figures, std::span<const sfsm::Stutter> stutters) {
+    Json json;
+    json["average_fps"] = number(figures.average_fps);
+    json["median_fps"] = number(figures.median_fps);
+    json["p1_fps"] = number(figures.p1_fps);
+    json["p0_1_fps"] = number(figures.p01_fps);
+    json["low_1_percent_fps"] = low_json(figures.low_1);
+    json["low_0_1_percent_fps"] = low_json(figures.low_01);
+    json["min_fps"] = number(figures.least_fps);
+    json["max_fps"] = number(figures.most_fps);
+    json["mean_ms"] = number(figures.mean_ms);
+    json["median_ms"] = number(figures.median_ms);
+    json["p99_ms"] = number(figures.p99_ms);
+    json["p99_9_ms"] = number(figures.p999_ms);
+    json["min_ms"] = number(figures.least_ms);
+    json["max_ms"] = number(figures.most_ms);
+    json["mean_step_ms"] = number(figures.mean_step_ms);
+    json["mean_animation_error_ms"] = number(figures.mean_animation_error_ms);
+    json["stutter"] = stutter_json(figures, stutters);
+    json["over_ms"] = over_json(figures.over);
+    json["seconds"] = number(figures.seconds);
+    json["frames"] = figures.frames;
+    json["timed"] = figures.timed;
+    json["dropped"] = figures.dropped;
+    json["generated"] = figures.generated;
+    json["displayed"] = figures.displayed;
+    json["bottleneck"] = bottleneck_json(figures.bottleneck);
+    return json;
+}
+
+Json differences_json(std::span<const sfsm::Difference> differences) {
+    Json json = Json::array();
+    for (const sfsm::Difference& difference : differences) {
+        json.push_back(Json{{"name", difference.name},
+                            {"unit", difference.unit},
+                            {"first", number(difference.first)},
+                            {"second", number(difference.second)},
+                            {"change", number(difference.change)},
+                            {"low", number(difference.low)},
+                            {"high", number(difference.high)},
+                            {"is_share", difference.is_share},
+                            {"is_clear", difference.is_clear()}});
+    }
+    return json;
+}
+
+void write_figures(std::ostream& out, std::span<const NamedFigures> recordings) {
+    std::vector<TableLine> lines(1);
+    for (const NamedFigures& recording : recordings) lines[0].cells.push_back(recording.name);
+    for (const Row& row : all_rows(recordings.front().figures)) {
+        TableLine line{row.label, {}};
+        bool is_told = false;
+        for (const NamedFigures& recording : recordings) {
+            const double value = row.value(recording.figures);
+            is_told = is_told || std::isfinite(value);
+            line.cells.push_back(fixed(value, row.digits));
+        }
+        if (is_told) lines.push_back(std::move(line));
+    }
+    write_table(out, lines);
+}
+
+void write_differences(std::ostream& out, std::string_view first, std::string_view second,
+                       std::span<const sfsm::Difference> differences) {
+    std::vector<TableLine> lines = {{"", {std::string(first), std::string(second), "change", "95 % within"}}};
+    for (const sfsm::Difference& difference : differences) {
+        const double scale = difference.is_share ? 100 : 1;
+        const int digits = difference.is_share ? 2 : 1;
+        TableLine line{difference.name + " [" + difference.unit + "]",
+                       {fixed(scale * difference.first, digits), fixed(scale * difference.second, digits),
+                        change_text(difference, difference.change), interval_text(difference)}};
+        if (difference.is_clear()) line.cells.push_back("clear");
+        lines.push_back(std::move(line));
+    }
+    write_table(out, lines);
+}
+
+void write_frames_csv(std::ostream& out, std::string_view run, std::span<const sfsm::FrameRecord> frames, bool header) {
+    constexpr double ms_per_s = 1000;
+    if (header)
+        out << "run,frame,time_s,frame_time_ms,cpu_ms,gpu_ms,display_ms,animation_error_ms,dropped,compilations\n";
+    const std::string name = csv_field(run);
+    double begins_ms = 0;
+    std::string line;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        line = name + ',';
+        sfsm::append_number(line, static_cast<std::int64_t>(i));
+        append_told(line, begins_ms / ms_per_s);
+        append_frame(line, frames[i]);
+        out << line;
+        if (sfsm::is_timed(frames[i])) begins_ms += frames[i].frame_ms;
+    }
+}
+
+}  // namespace apps
