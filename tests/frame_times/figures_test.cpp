@@ -145,7 +145,7 @@ TEST(Figures, AreThoseOfTheSlowWayOfLongRuns) {
     }
 }
 
-// By hand: 200 frames of 10 ms and two of 100 ms and 50 ms. P1 stands at place 202.33 / 100 + 1 / 3 = 2.357.
+// By hand: 200 frames of 10 ms but for one of 100 ms and one of 50 ms. P1 stands at place 200.33 / 100 + 1 / 3 = 2.337.
 TEST(Figures, OfAFewLongFramesAreWhatTheyAreByHand) {
     std::vector<double> times(200, 10);
     times[70] = 100;
@@ -162,6 +162,14 @@ TEST(Figures, OfAFewLongFramesAreWhatTheyAreByHand) {
     EXPECT_EQ(figures.over[0].frames, 2);
     EXPECT_EQ(figures.over[1].frames, 1);
     EXPECT_EQ(figures.over[1].share, 1.0 / 200);
+}
+
+TEST(Figures, IntegralIsOfTheFrameThatReachesItsShareOfTheTime) {
+    std::vector<double> times(198, 10);
+    times.push_back(20);  // 1 % of 2000 ms
+    EXPECT_EQ(figures_of(run_of(times), 0, {}).low_1.integral, 50);
+    times.back() = 19;
+    EXPECT_EQ(figures_of(run_of(times), 0, {}).low_1.integral, 100);
 }
 
 TEST(Figures, OfNothingAreNone) {
