@@ -18,6 +18,15 @@ void append(std::string& out, T value) {
 }
 
 template <typename T>
+void append_real(std::string& out, T value) {
+    if (std::isnan(value)) {
+        out += "nan";  // a NaN's sign says nothing, and to_chars would print it
+    } else {
+        append(out, value);
+    }
+}
+
+template <typename T>
 std::optional<T> parse(std::string_view text) {
     T value{};
     const char* end = text.data() + text.size();
@@ -29,11 +38,11 @@ std::optional<T> parse(std::string_view text) {
 }  // namespace
 
 void append_number(std::string& out, double value) {
-    if (std::isnan(value)) {
-        out += "nan";  // a NaN's sign says nothing, and to_chars would print it
-    } else {
-        append(out, value);
-    }
+    append_real(out, value);
+}
+
+void append_number(std::string& out, float value) {
+    append_real(out, value);
 }
 
 void append_number(std::string& out, std::int64_t value) {

@@ -8,8 +8,9 @@
 
 namespace sfsm {
 
-// The shortest decimal text that reads back to the same bits; "inf", "-inf", "nan".
+// The shortest decimal text that reads back to the same bits of its type; "inf", "-inf", "nan".
 void append_number(std::string& out, double value);
+void append_number(std::string& out, float value);
 void append_number(std::string& out, std::int64_t value);
 std::string number_text(double value);
 

@@ -68,7 +68,7 @@ Drawing trace_drawing(const Trace& trace) {
     throw std::runtime_error(message);
 }
 
-std::optional<Difference> first_difference(std::span<const TraceRow> rows, std::span<const Replayed> replayed) {
+std::optional<FirstDifference> first_difference(std::span<const TraceRow> rows, std::span<const Replayed> replayed) {
     assert(rows.size() == replayed.size());
     // Numbers are written so that they read back to the same bits: equal texts are equal bits.
     TraceRow again;
@@ -82,7 +82,7 @@ std::optional<Difference> first_difference(std::span<const TraceRow> rows, std::
             column.write(recorded, rows[i]);
             column.write(decided, again);
             if (recorded == decided) continue;
-            return Difference{rows[i].frame, std::string(column.name), *parse_double(recorded), *parse_double(decided)};
+            return FirstDifference{rows[i].frame, std::string(column.name), *parse_double(recorded), *parse_double(decided)};
         }
     }
     return std::nullopt;

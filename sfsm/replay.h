@@ -43,12 +43,12 @@ int trace_delay(const Trace& trace);
 Drawing trace_drawing(const Trace& trace);
 
 // A number of a decision that differs from the recorded one in any bit.
-struct Difference {
+struct FirstDifference {
     std::int64_t frame = 0;
     std::string field;  // the trace column
     double recorded = 0;
     double decided = 0;
 };
-std::optional<Difference> first_difference(std::span<const TraceRow> rows, std::span<const Replayed> replayed);
+std::optional<FirstDifference> first_difference(std::span<const TraceRow> rows, std::span<const Replayed> replayed);
 
 }  // namespace sfsm

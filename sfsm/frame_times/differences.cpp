@@ -6,6 +6,7 @@
 #include <limits>
 #include <tuple>
 
+#include "sfsm/between.h"
 #include "sfsm/frame_times/figures.h"
 #include "sfsm/frame_times/percentile.h"
 #include "sfsm/frame_times/stutters.h"

@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 
+#include "sfsm/between.h"
 #include "sfsm/frame_times/percentile.h"
 #include "sfsm/frame_times/stutters.h"
 

@@ -63,7 +63,7 @@ struct Figures {
 // 120, 60 and 30 frames a second.
 inline constexpr std::array<double, 3> usual_limits_ms = {1000.0 / 120, 1000.0 / 60, 1000.0 / 30};
 
-// Without a frame that has a time: counts 0, no seconds, all else NaN. O(n log n).
+// Where no frame has a time: no seconds, no stutters, and rates, times and shares are NaN. O(n log n).
 Figures figures_of(std::span<const FrameRecord> frames, std::int64_t generated, std::span<const double> limits_ms);
 
 }  // namespace sfsm

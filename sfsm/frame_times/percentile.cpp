@@ -12,10 +12,6 @@ Place place_of(double one_in, std::int64_t frames) {
     return {static_cast<std::int64_t>(rank), place - rank};
 }
 
-double between(double value, double next, double beyond) {
-    return value + beyond * (next - value);
-}
-
 double rate_of(double ms) {
     return 1000 / ms;
 }

@@ -13,9 +13,6 @@ struct Place {
 // Of the slowest one in `one_in` of `frames`, which are 1 or more: 2 is the median, 100 is P1.
 Place place_of(double one_in, std::int64_t frames);
 
-// From a value at a place to the next one's.
-double between(double value, double next, double beyond);
-
 double rate_of(double ms);  // [frames/s]
 
 }  // namespace sfsm

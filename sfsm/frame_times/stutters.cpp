@@ -37,6 +37,24 @@ private:
     std::size_t count_ = 0;
 };
 
+struct Sum {
+    double ms = 0;
+    std::int64_t frames = 0;
+
+    double mean() const { return ms / static_cast<double>(frames); }
+};
+
+// Of the first frames with a time, at most `most`.
+Sum first_times(std::span<const FrameRecord> frames, std::int64_t most) {
+    Sum sum;
+    for (std::size_t i = 0; i < frames.size() && sum.frames < most; ++i) {
+        if (!is_timed(frames[i])) continue;
+        sum.ms += frames[i].frame_ms;
+        ++sum.frames;
+    }
+    return sum;
+}
+
 Cause cause_of(const FrameRecord& frame, std::int64_t index) {
     if (index < recorder_frames) return Cause::recorder;
     if (frame.compilations > 0) return Cause::compilation;
@@ -79,22 +97,18 @@ std::string_view name_of(Cause cause) {
 }
 
 std::vector<Stutter> stutters_of(std::span<const FrameRecord> frames) {
-    double total_ms = 0;
-    std::int64_t timed = 0;
-    for (const FrameRecord& frame : frames) {
-        if (!is_timed(frame)) continue;
-        total_ms += frame.frame_ms;
-        ++timed;
-    }
+    const Sum all = first_times(frames, std::ssize(frames));
     std::vector<Stutter> stutters;
-    if (timed == 0) return stutters;
-    const std::int64_t window = std::min(stutter_window(total_ms / static_cast<double>(timed)), timed);
+    if (all.frames == 0) return stutters;
+    const std::int64_t window = std::min(stutter_window(all.mean()), all.frames);
+    const double first_mean_ms = first_times(frames, window).mean();
     TrailingMean mean(static_cast<std::size_t>(window));
     double begins_ms = 0;
     for (std::size_t i = 0; i < frames.size(); ++i) {
         if (!is_timed(frames[i])) continue;
-        const double frame_ms = frames[i].frame_ms, mean_ms = mean.add(frame_ms);
         const std::int64_t index = static_cast<std::int64_t>(i);
+        const double frame_ms = frames[i].frame_ms, last_mean_ms = mean.add(frame_ms);
+        const double mean_ms = index < recorder_frames ? first_mean_ms : last_mean_ms;
         if (frame_ms > stutter_factor * mean_ms)
             stutters.push_back({index, begins_ms, frame_ms, mean_ms, cause_of(frames[i], index)});
         begins_ms += frame_ms;

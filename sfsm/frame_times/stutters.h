@@ -11,7 +11,9 @@
 namespace sfsm {
 
 // A frame stutters if it takes over 2.5 times the mean of the last frames, it among them, as CapFrameX counts: of the
-// last 10 sqrt(mean time of the run in ms) frames with a time (41 frames at 60 frames/s), fewer at the start.
+// last 10 sqrt(mean time of the run in ms) frames with a time (41 frames at 60 frames/s), fewer at the start. The
+// first 10 have too few before them to stand out: unlike there they are compared with the mean of the run's first such
+// window.
 inline constexpr double stutter_factor = 2.5;
 std::int64_t stutter_window(double mean_ms);  // [frames], at least 1
 
@@ -26,7 +28,7 @@ struct Stutter {
     std::int64_t frame = 0;  // an index
     double begins_ms = 0;    // after the first frame began: the sum of the times before
     double frame_ms = 0;
-    double mean_ms = 0;  // of the last frames, this one among them
+    double mean_ms = 0;  // of the window, this frame among them
     Cause cause = Cause::untold;
 };
 

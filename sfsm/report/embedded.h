@@ -1,4 +1,4 @@
-// A report's runs as the page's script reads them.
+// A report's data as the page's script reads it.
 #pragma once
 
 #include <iosfwd>
@@ -7,10 +7,20 @@
 
 namespace sfsm::report {
 
-// JSON, safe inside a <script>: {"runs": [{"name", "frames", "series": {"target_ms", "frame_ms", "predicted_ms",
-// "motion_distance", "splat_size", "state": {"values", "counts"}}}]}. `values` is base64 of little-endian float32, of
-// state uint8; to the bit as they are in the report. `counts` is base64 of little-endian uint32, how often each value
-// comes in a row; an empty string where each comes once.
+// JSON, safe inside a <script>: {"target_ms", "recordings": [...], "runs": [...]}.
+//
+// A recording is {"name", "frames", "seconds", "series": {"frame_ms", "display_ms", ...}, "stutters"}, with the series
+// that are told in any frame; a run {"name", "frames", "series": {"target_ms", ..., "state"}}.
+//
+// A series is {"width", "low"} or {"width", "low", "high"}: the least and the most of each `width` frames, which are
+// the same where there is no "high". Either is one of
+//   {"quantum", "packed"}  base64 of a varint a value: 0 for none, else 1 + the zigzag of the steps of `quantum` from
+//   the
+//                          last value to this
+//   {"values", "counts"}   base64 of little-endian float32 (of states uint8), to the bit as they are; and of uint32 how
+//                          often each comes in a row, empty where each comes once
+// States of more frames than are kept are {"width", "slowed", "points"}: shares of each `width` frames in 1/255.
+// Stutters are {"frames", "causes"}: base64 of uint32, and of uint8, a Cause each.
 void write_embedded(std::ostream& out, const Report& report);
 
 }  // namespace sfsm::report

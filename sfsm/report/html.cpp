@@ -7,12 +7,16 @@
 #include "sfsm/report/embedded.h"
 #include "sfsm/report/markup.h"
 #include "sfsm/report/page_file.h"
+#include "sfsm/report/recording_html.h"
 #include "sfsm/report/report.h"
+#include "sfsm/report/small_multiples.h"
 
 namespace sfsm {
 namespace {
 
 using namespace report;
+
+constexpr std::size_t most_over_each_other = 7;  // runs in one chart: what was recorded, and six laws
 
 void write_facts(std::ostream& out, const Report& report) {
     for (const auto& [name, value] : report.facts) {
@@ -45,8 +49,7 @@ void write_scorecard(std::ostream& out, const Report& report) {
     out << "<table" << (report.runs.size() == 1 ? " class=\"single\"" : "")
         << "><thead><tr><th scope=\"col\">Figure</th>";
     for (std::size_t i = 0; i < report.runs.size(); ++i) {
-        out << "<th scope=\"col\"><i class=\"chip\" style=\"--run: var(--run-" << i % 8 << ")\"></i>"
-            << escaped(report.runs[i].name) << "</th>";
+        out << "<th scope=\"col\">" << chip(i) << escaped(report.runs[i].name) << "</th>";
     }
     out << "</tr></thead><tbody>\n";
     std::size_t rows = report.runs.front().scores.size();
@@ -61,8 +64,23 @@ void write_scorecard(std::ostream& out, const Report& report) {
     out << "</tbody></table>\n";
 }
 
+bool has_stutters(const Report& report) {
+    return std::any_of(report.recordings.begin(), report.recordings.end(),
+                       [](const ReportedRecording& recording) { return !recording.stutters.empty(); });
+}
+
+bool has_origins(const Report& report) {
+    return std::any_of(report.recordings.begin(), report.recordings.end(), [](const ReportedRecording& recording) {
+        return !recording.facts.empty() || !recording.notes.empty();
+    });
+}
+
+// A part of the page that has a file of its own.
+void write_section(std::ostream& out, const Report& report, const char* file);
+
 void write_script(std::ostream& out) {
-    for (const char* file : {"parts.js", "data.js", "plot.js", "time_charts.js", "spread_charts.js", "page.js"}) {
+    for (const char* file : {"parts.js", "series.js", "plot.js", "view.js", "spread.js", "recordings.js", "laws.js",
+                             "law_charts.js", "page.js"}) {
         out << page_file(file);
     }
 }
@@ -70,18 +88,37 @@ void write_script(std::ostream& out) {
 // What stands in the page for {{name}}.
 void write_part(std::ostream& out, const Report& report, std::string_view name) {
     if (name == "title") out << escaped(report.title);
+    if (name == "style") out << page_file("base.css") << page_file("report.css");
+    if (name == "recordings" && !report.recordings.empty()) write_section(out, report, "recordings.html");
+    if (name == "laws" && !report.runs.empty()) {
+        write_section(out, report, report.runs.size() > most_over_each_other ? "many_laws.html" : "laws.html");
+    }
+    if (name == "numbers") write_numbers(out, report);
+    if (name == "comparisons" && !report.comparisons.empty()) write_section(out, report, "comparisons.html");
+    if (name == "differences") write_comparisons(out, report);
+    if (name == "busy") write_busy_figures(out, report);
+    if (name == "stutters" && has_stutters(report)) write_section(out, report, "stutters.html");
+    if (name == "stutter-lists") write_stutters(out, report);
+    if (name == "origins" && has_origins(report)) write_section(out, report, "origins.html");
+    if (name == "origin-lists") write_origins(out, report);
+    if (name == "runs-title") out << escaped(report.runs_title);
+    if (name == "runs-words" && !report.runs_words.empty()) out << "<p>" << escaped(report.runs_words) << "</p>\n";
     if (name == "facts") write_facts(out, report);
     if (name == "scorecard") write_scorecard(out, report);
-    if (name == "style") out << page_file("base.css") << page_file("report.css");
+    if (name == "small-multiples") write_small_multiples(out, report);
     if (name == "picture") write_report_svg(out, report);
     if (name == "data") write_embedded(out, report);
     if (name == "script") write_script(out);
 }
 
+void write_section(std::ostream& out, const Report& report, const char* file) {
+    fill_page(out, page_file(file), [&](std::string_view name) { write_part(out, report, name); });
+}
+
 }  // namespace
 
 void write_report_html(std::ostream& out, const Report& report) {
-    fill_page(out, page_file("report.html"), [&](std::string_view name) { write_part(out, report, name); });
+    write_section(out, report, "report.html");
 }
 
 }  // namespace sfsm

@@ -8,6 +8,14 @@
 namespace sfsm::report {
 namespace {
 
+// The smallest of the sorted values that at least `share` of them do not exceed.
+double ranked(const std::vector<double>& sorted, double share) {
+    const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
+    return sorted[std::max<std::size_t>(rank, 1) - 1];
+}
+
+}  // namespace
+
 Bucket bucket(std::span<const float> values, std::int64_t begin, std::int64_t end) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     Bucket bucket{begin, end, infinity, -infinity};
@@ -17,14 +25,6 @@ Bucket bucket(std::span<const float> values, std::int64_t begin, std::int64_t en
     }
     return bucket;
 }
-
-// The smallest of the sorted values that at least `share` of them do not exceed.
-double ranked(const std::vector<double>& sorted, double share) {
-    const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
-    return sorted[std::max<std::size_t>(rank, 1) - 1];
-}
-
-}  // namespace
 
 double Axis::operator()(double value) const {
     const double share = (std::clamp(value, low, high) - low) / (high - low);

@@ -31,6 +31,9 @@ struct Bucket {
     bool is_empty() const { return low > high; }
 };
 
+// Of values [begin, end).
+Bucket bucket(std::span<const float> values, std::int64_t begin, std::int64_t end);
+
 // One bucket a frame as long as no more than two share a column, else one a column: no spike is lost.
 std::vector<Bucket> thin(std::span<const float> values, int columns);
 

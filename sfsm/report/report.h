@@ -1,15 +1,21 @@
-// Runs drawn for people: frame time against target and what the law decided, of one law or several over each other. As
-// one HTML file that needs nothing else and can be zoomed, hovered and printed, or as an SVG picture.
+// Recordings and runs drawn for people: how a game ran, and why it stuttered; then frame time against target and what a
+// law decided, of one law or several. As one HTML file that needs nothing else and can be zoomed, hovered and printed,
+// or as an SVG picture.
 #pragma once
 
 #include <iosfwd>
 #include <limits>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "sfsm/decision.h"
+#include "sfsm/frame_times/differences.h"
+#include "sfsm/frame_times/figures.h"
+#include "sfsm/frame_times/stutters.h"
+#include "sfsm/recordings/frame_record.h"
 #include "sfsm/trace.h"
 
 namespace sfsm {
@@ -47,15 +53,47 @@ struct ReportRun {
 // A run with the scores of its times.
 ReportRun report_run(std::string name, std::span<const TraceRow> rows);
 
-struct Report {
-    std::string title;
-    std::vector<std::pair<std::string, std::string>> facts;  // of the run and the machine, in the order shown
-    std::vector<ReportRun> runs;                             // >= 1; the first is shown first
+// What was recorded, as it is. `frames` must live as long.
+struct ReportedRecording {
+    std::string name;
+    std::vector<std::pair<std::string, std::string>> facts;  // of the game and the machine, in the order shown
+    std::vector<std::string> notes;                          // on how it was read
+    std::span<const FrameRecord> frames;
+    Figures figures;
+    std::vector<Stutter> stutters;
+    Over over_target = {FrameRecord::untold, 0,
+                        FrameRecord::untold};  // limit: NaN where the target changes; share: NaN without one
 };
 
-// Text may hold anything: it is escaped. The same report gives the same bytes. Runs have eight colours; the ninth has
-// the first's again. A page takes at most 28 bytes a frame and run, 34 where it was
-// decided by rate, a picture never more than some 100 KB a run.
+// What the runs of a trace of ours show, in words.
+inline constexpr std::string_view decision_words =
+    "How each frame was drawn. People beyond the distance D move at a lower rate; in state points everybody is drawn as "
+    "points of size S.";
+
+// Two of the report's recordings.
+struct Comparison {
+    std::size_t first = 0, second = 0;
+    std::vector<Difference> differences;
+};
+
+// A page's parts come in this order; those that are empty are left out.
+struct Report {
+    std::string title;
+    std::vector<std::pair<std::string, std::string>> facts;  // of the laws' runs, in the order shown
+    std::vector<ReportRun> runs;                             // of laws; the first is shown first
+    std::string runs_title = "Frame by frame";               // of the part with the runs
+    std::string runs_words = {};                             // in which what the runs are is explained
+
+    std::vector<ReportedRecording> recordings = {};
+    std::vector<Comparison> comparisons = {};
+};
+
+// Text may hold anything: it is escaped. The same report gives the same bytes. Colours come again after eight runs;
+// over six laws are a table with small pictures.
+//
+// Frame times of recordings are kept to 0.001 ms, in recordings of over 200,000 frames to 0.01 ms: 1 to 3 bytes a
+// frame. Of all else a page keeps 20,000 frames as they are, of more the least and the most in each of 4,096 stretches.
+// A picture is never more than some 100 KB a run.
 void write_report_html(std::ostream& out, const Report& report);
 void write_report_svg(std::ostream& out, const Report& report);
 

@@ -28,6 +28,10 @@ std::vector<Stutter> slow_stutters(const std::vector<double>& all) {
         long double sum = 0, begins = 0;
         std::ptrdiff_t count = 0;
         for (std::ptrdiff_t j = i; j >= 0 && count < window; --j, ++count) sum += times[j];
+        if (frames[static_cast<std::size_t>(i)] < 10) {
+            sum = 0;
+            for (count = 0; count < window && count < std::ssize(times); ++count) sum += times[count];
+        }
         const double around = static_cast<double>(sum) / static_cast<double>(count);
         if (times[i] <= 2.5 * around) continue;
         for (std::ptrdiff_t j = 0; j < i; ++j) begins += times[j];
@@ -62,6 +66,17 @@ TEST(Stutters, AreThoseOfTheSlowWay) {
         }
     }
     EXPECT_GT(seen, 100u);
+}
+
+TEST(Stutters, ARecordersOwnHitchAtItsStartIsSeen) {
+    for (const std::size_t place : {0, 1, 5}) {
+        std::vector<double> times(200, 10);
+        times[place] = 80;
+        const std::vector<Stutter> found = stutters_of(run_of(times));
+        ASSERT_EQ(found.size(), 1u) << place;
+        EXPECT_EQ(found[0].frame, static_cast<std::int64_t>(place));
+        EXPECT_EQ(found[0].cause, Cause::recorder);
+    }
 }
 
 // 41 frames at 60 frames/s.

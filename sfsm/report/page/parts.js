@@ -52,6 +52,14 @@ function linearTicks(axis, most) {
   return values;
 }
 
+// Seconds as "1:04.25" or "2:01:04.25".
+function clockText(seconds) {
+  const thousandths = Math.round(seconds * 1000), two = (value) => (value < 10 ? "0" : "") + value;
+  const hours = Math.floor(thousandths / 3.6e6), minutes = Math.floor(thousandths / 6e4) % 60;
+  const rest = two(brief((thousandths % 6e4) / 1000));
+  return hours > 0 ? `${hours}:${two(minutes)}:${rest}` : `${minutes}:${rest}`;
+}
+
 // 1, 2 and 5 of each decade; over many decades only some powers of ten.
 function logTicks(axis, most) {
   const first = Math.floor(Math.log10(axis.low)), last = Math.ceil(Math.log10(axis.high));
@@ -62,6 +70,16 @@ function logTicks(axis, most) {
     for (const factor of factors) values.push(factor * 10 ** power);
   }
   return values.filter((value) => value >= axis.low && value <= axis.high);
+}
+
+// Seconds whose labels are round as a clock has them.
+function clockTicks(axis, most) {
+  const rough = (axis.high - axis.low) / most;
+  const step = [1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600].find((value) => value >= rough);
+  if (rough < 1) return linearTicks(axis, most);
+  const values = [], by = step ?? 3600 * Math.ceil(rough / 3600);
+  for (let i = Math.ceil(axis.low / by); i * by <= axis.high; ++i) values.push(i * by);
+  return values;
 }
 
 const ticksOf = (axis, most) => (axis.isLog ? logTicks(axis, most) : linearTicks(axis, most));
