@@ -3,23 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <iomanip>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <utility>
 #include <vector>
 
 #include "sfsm/number_text.h"
+#include "sfsm/report/numbers.h"
 
 namespace apps {
 namespace {
 
 using Json = nlohmann::ordered_json;
 using sfsm::Figures;
-
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 Json number(double value) {
     return std::isfinite(value) ? Json(value) : Json();
@@ -87,6 +84,12 @@ std::string interval_text(const sfsm::Difference& difference) {
     return with_sign(100 * difference.low) + " to " + change_text(difference, difference.high);
 }
 
+// Of a long name the end, which tells files apart better than the beginning.
+std::string column_name(std::string_view name) {
+    constexpr std::size_t longest = 28;
+    return name.size() <= longest ? std::string(name) : "..." + std::string(name.substr(name.size() - longest + 3));
+}
+
 struct TableLine {
     std::string label;
     std::vector<std::string> cells;
@@ -103,79 +106,12 @@ void write_table(std::ostream& out, const std::vector<TableLine>& lines) {
         for (std::size_t i = 0; i < line.cells.size(); ++i) widths[i] = std::max(widths[i], line.cells[i].size());
     }
     for (const TableLine& line : lines) {
-        out << std::left << std::setw(static_cast<int>(label_width)) << line.label << std::right;
+        out << std::left << std::setw(line.cells.empty() ? 0 : static_cast<int>(label_width)) << line.label
+            << std::right;
         for (std::size_t i = 0; i < line.cells.size(); ++i)
             out << "  " << std::setw(static_cast<int>(widths[i])) << line.cells[i];
         out << '\n';
     }
-}
-
-// A line of the table of figures.
-struct Row {
-    std::string label;
-    int digits;
-    std::function<double(const Figures&)> value;
-};
-
-double percent(double share) {
-    return 100 * share;
-}
-
-// What is there or not; none is nothing to say.
-double if_any(std::int64_t count) {
-    return count > 0 ? static_cast<double>(count) : nothing;
-}
-
-std::vector<Row> rate_rows() {
-    return {{"average [fps]", 1, [](const Figures& f) { return f.average_fps; }},
-            {"median [fps]", 1, [](const Figures& f) { return f.median_fps; }},
-            {"P1 [fps]", 1, [](const Figures& f) { return f.p1_fps; }},
-            {"P0.1 [fps]", 1, [](const Figures& f) { return f.p01_fps; }},
-            {"1 % low, mean [fps]", 1, [](const Figures& f) { return f.low_1.mean; }},
-            {"1 % low, integral [fps]", 1, [](const Figures& f) { return f.low_1.integral; }},
-            {"0.1 % low, mean [fps]", 1, [](const Figures& f) { return f.low_01.mean; }},
-            {"0.1 % low, integral [fps]", 1, [](const Figures& f) { return f.low_01.integral; }},
-            {"minimum [fps]", 1, [](const Figures& f) { return f.least_fps; }},
-            {"maximum [fps]", 1, [](const Figures& f) { return f.most_fps; }}};
-}
-
-std::vector<Row> time_rows() {
-    return {{"mean [ms]", 2, [](const Figures& f) { return f.mean_ms; }},
-            {"median [ms]", 2, [](const Figures& f) { return f.median_ms; }},
-            {"99 % within [ms]", 2, [](const Figures& f) { return f.p99_ms; }},
-            {"99.9 % within [ms]", 2, [](const Figures& f) { return f.p999_ms; }},
-            {"longest [ms]", 2, [](const Figures& f) { return f.most_ms; }},
-            {"from frame to frame [ms]", 2, [](const Figures& f) { return f.mean_step_ms; }},
-            {"animation error [ms]", 2, [](const Figures& f) { return f.mean_animation_error_ms; }},
-            {"time in stutter [%]", 2, [](const Figures& f) { return percent(f.stutter_share); }},
-            {"stutters", 0, [](const Figures& f) { return static_cast<double>(f.stutters); }}};
-}
-
-// Recordings that are compared are counted by the same limits.
-std::vector<Row> over_rows(const Figures& first) {
-    std::vector<Row> rows;
-    for (std::size_t i = 0; i < first.over.size(); ++i) {
-        rows.push_back({"over " + fixed(first.over[i].limit_ms, 1) + " ms [%]", 2,
-                        [i](const Figures& f) { return percent(f.over.at(i).share); }});
-    }
-    return rows;
-}
-
-std::vector<Row> count_rows() {
-    return {{"held up by the GPU [%]", 1, [](const Figures& f) { return percent(f.bottleneck.gpu); }},
-            {"held up by the CPU [%]", 1, [](const Figures& f) { return percent(f.bottleneck.cpu); }},
-            {"held up by neither [%]", 1, [](const Figures& f) { return percent(f.bottleneck.neither); }},
-            {"duration [s]", 1, [](const Figures& f) { return f.seconds; }},
-            {"frames", 0, [](const Figures& f) { return static_cast<double>(f.frames); }},
-            {"never shown", 0, [](const Figures& f) { return if_any(f.dropped); }},
-            {"generated besides", 0, [](const Figures& f) { return if_any(f.generated); }}};
-}
-
-std::vector<Row> all_rows(const Figures& first) {
-    std::vector<Row> rows;
-    for (std::vector<Row> some : {rate_rows(), time_rows(), over_rows(first), count_rows()})
-        rows.insert(rows.end(), std::make_move_iterator(some.begin()), std::make_move_iterator(some.end()));
-    return rows;
 }
 
 std::string csv_field(std::string_view text) {
@@ -188,18 +124,18 @@ std::string csv_field(std::string_view text) {
     return field.find_first_of(",;\t\"") == std::string::npos ? field : '"' + field + '"';
 }
 
-void append_told(std::string& line, double value) {
+template <class Number>
+void append_told(std::string& line, Number value) {
     line += ',';
     if (!std::isnan(value)) sfsm::append_number(line, value);
 }
 
 void append_frame(std::string& line, const sfsm::FrameRecord& frame) {
     using Fate = sfsm::FrameRecord::Fate;
-    for (const double value : {frame.frame_ms, frame.cpu_ms, frame.gpu_ms, static_cast<double>(frame.display_ms),
-                               static_cast<double>(frame.animation_error_ms)})
-        append_told(line, value);
+    for (const double value : {frame.frame_ms, frame.cpu_ms, frame.gpu_ms}) append_told(line, value);
+    for (const float value : {frame.display_ms, frame.animation_error_ms}) append_told(line, value);
     line += frame.fate == Fate::untold ? "," : frame.fate == Fate::dropped ? ",1" : ",0";
-    append_told(line, static_cast<double>(frame.compilations));
+    append_told(line, frame.compilations);
     line += '\n';
 }
 
@@ -251,25 +187,23 @@ Json differences_json(std::span<const sfsm::Difference> differences) {
     return json;
 }
 
-void write_figures(std::ostream& out, std::span<const NamedFigures> recordings) {
+void write_figures(std::ostream& out, std::span<const sfsm::ReportedRecording> recordings) {
     std::vector<TableLine> lines(1);
-    for (const NamedFigures& recording : recordings) lines[0].cells.push_back(recording.name);
-    for (const Row& row : all_rows(recordings.front().figures)) {
-        TableLine line{row.label, {}};
-        bool is_told = false;
-        for (const NamedFigures& recording : recordings) {
-            const double value = row.value(recording.figures);
-            is_told = is_told || std::isfinite(value);
-            line.cells.push_back(fixed(value, row.digits));
+    for (const sfsm::ReportedRecording& recording : recordings) lines[0].cells.push_back(column_name(recording.name));
+    for (const sfsm::report::NumberGroup& group : sfsm::report::numbers_of(recordings)) {
+        lines.push_back({group.name, {}});
+        for (const sfsm::report::NumberRow& row : group.rows) {
+            TableLine& line = lines.emplace_back();
+            line.label = "  " + row.name + (row.unit.empty() ? "" : " [" + row.unit + "]");
+            for (const double value : row.values) line.cells.push_back(fixed(value, row.digits));
         }
-        if (is_told) lines.push_back(std::move(line));
     }
     write_table(out, lines);
 }
 
 void write_differences(std::ostream& out, std::string_view first, std::string_view second,
                        std::span<const sfsm::Difference> differences) {
-    std::vector<TableLine> lines = {{"", {std::string(first), std::string(second), "change", "95 % within"}}};
+    std::vector<TableLine> lines = {{"", {column_name(first), column_name(second), "change", "95 % within"}}};
     for (const sfsm::Difference& difference : differences) {
         const double scale = difference.is_share ? 100 : 1;
         const int digits = difference.is_share ? 2 : 1;

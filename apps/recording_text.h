@@ -11,6 +11,7 @@
 #include "sfsm/frame_times/figures.h"
 #include "sfsm/frame_times/stutters.h"
 #include "sfsm/recordings/frame_record.h"
+#include "sfsm/report/report.h"
 
 namespace apps {
 
@@ -20,13 +21,8 @@ nlohmann::ordered_json figures_json(const sfsm::Figures& figures, std::span<cons
 // A list of objects, one a figure.
 nlohmann::ordered_json differences_json(std::span<const sfsm::Difference> differences);
 
-struct NamedFigures {
-    std::string name;
-    sfsm::Figures figures;
-};
-
-// A table, a line a figure and a column a recording, one or more. Figures that none of them has are left out.
-void write_figures(std::ostream& out, std::span<const NamedFigures> recordings);
+// A table, a line a figure and a column a recording, one or more: sfsm/report/numbers.h.
+void write_figures(std::ostream& out, std::span<const sfsm::ReportedRecording> recordings);
 
 // A table, a line a figure: of both, the change, and where it lies with 95 %; "clear" where that is on one side of
 // none.
@@ -35,7 +31,7 @@ void write_differences(std::ostream& out, std::string_view first, std::string_vi
 
 // The frames as they were understood, a row each: run, frame (from 0), time_s (when it begins, after the first did),
 // frame_time_ms, cpu_ms, gpu_ms, display_ms, animation_error_ms, dropped (1 or 0), compilations. What isn't told is
-// empty. Numbers read back to the same bits, and read_recording reads the frame times.
+// empty. read_recording reads the same records back, to the bit; of several runs in one file each by its name.
 void write_frames_csv(std::ostream& out, std::string_view run, std::span<const sfsm::FrameRecord> frames, bool header);
 
 }  // namespace apps

@@ -1,5 +1,5 @@
-// replay: any recorded run through any law: what the law would have made of it, or only decided, or whether it decided
-// so; what the frames of a trace cost; and what laws are worth on simulated renderers.
+// replay: how any recorded run went; any law over it: what the law would have made of it, or only decided, or whether
+// it decided so; what the frames of a trace cost; and what laws are worth on simulated renderers.
 #include "sfsm/replay.h"
 
 #include <algorithm>
@@ -15,13 +15,12 @@
 #include "apps/explain.h"
 #include "apps/output.h"
 #include "apps/program.h"
-#include "apps/progress.h"
 #include "apps/replay_options.h"
 #include "apps/rerun_text.h"
+#include "apps/review.h"
 #include "apps/session.h"
 #include "apps/simulate.h"
 #include "sfsm/number_text.h"
-#include "sfsm/report/report.h"
 #include "sfsm/simulate/recorded.h"
 
 namespace apps {
@@ -59,9 +58,9 @@ void verify(const std::string& path) {
 }
 
 void explain(const ReplayOptions& options) {
-    const sfsm::Trace trace = read_own_trace(options.trace);
+    const sfsm::Trace trace = read_own_trace(options.recordings.front());
     if (options.laws.empty()) {
-        required(trace, options.trace, "law");
+        required(trace, options.recordings.front(), "law");
         return write_explanation(std::cout, trace, *options.explained, law_of(trace, false));
     }
     std::string gap;
@@ -75,9 +74,9 @@ void explain(const ReplayOptions& options) {
 void fit(const ReplayOptions& options) {
     std::optional<OutputFile> json;
     if (!options.json.empty()) json.emplace(options.json);
-    const sfsm::Trace trace = read_own_trace(options.trace);
-    const auto fitted =
-        made_of(options.trace, [&] { return sfsm::simulate::fit_costs(trace.rows, sfsm::trace_drawing(trace)); });
+    const sfsm::Trace trace = read_own_trace(options.recordings.front());
+    const auto fitted = made_of(options.recordings.front(),
+                                [&] { return sfsm::simulate::fit_costs(trace.rows, sfsm::trace_drawing(trace)); });
     if (json) {
         json->stream() << fit_json(fitted).dump(2) << '\n';
         json->commit();
@@ -85,70 +84,12 @@ void fit(const ReplayOptions& options) {
     if (options.json != "-") write_fit(std::cout, fitted);
 }
 
-// Everything is opened before anything is written: a place that cannot be written leaves nothing.
-struct Outputs {
-    std::optional<OutputFile> json, csv, report, svg;
-
-    explicit Outputs(const ReplayOptions& options) {
-        if (!options.json.empty()) json.emplace(options.json);
-        if (!options.csv.empty()) csv.emplace(options.csv);
-        if (!options.report.empty()) report.emplace(options.report);
-        if (!options.svg.empty()) svg.emplace(options.svg);
-    }
-
-    void commit() {
-        for (std::optional<OutputFile>* file : {&json, &csv, &report, &svg})
-            if (*file) (*file)->commit();
-    }
-};
-
-std::string frames_text(const std::vector<sfsm::FrameRecord>& frames) {
-    const auto without =
-        std::count_if(frames.begin(), frames.end(), [](const auto& frame) { return std::isnan(frame.frame_ms); });
-    const std::string text = std::to_string(std::ssize(frames) - without) + " frames";
-    return without == 0 ? text : text + " and " + std::to_string(without) + " without a time";
-}
-
-void replay(const ReplayOptions& options) {
-    Outputs outputs(options);
-    const Session session = open_session(options);
-    const auto facts = facts_of(session, options.trace);
-    sfsm::Report report{options.trace, facts, {}};
-    Json json;
-    for (const auto& [key, value] : facts) json[key] = value;
-    json["delay"] = session.delay;  // [frames]
-    json["notes"] = session.recording.notes;
-    json["generated"] = session.recording.streams.at(session.recording.chosen).generated;  // presents, not rendered
-    const Rerun recorded = recorded_run(session);
-    json["recorded"] = rerun_json(recorded);
-    Json& runs = json["runs"] = Json::array();
-    report.runs.push_back(report_run(recorded));
-    ProgressBar bar("Replaying");
-    for (const sfsm::simulate::Contestant& law : session.laws) {
-        const Rerun run = rerun(session, law);
-        runs.push_back(rerun_json(run));
-        report.runs.push_back(report_run(run));
-        if (outputs.csv) write_trace(outputs.csv->stream(), session, run);
-        bar(static_cast<double>(report.runs.size() - 1) / static_cast<double>(session.laws.size()));
-    }
-    if (outputs.json) outputs.json->stream() << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
-    if (outputs.report) sfsm::write_report_html(outputs.report->stream(), report);
-    if (outputs.svg) sfsm::write_report_svg(outputs.svg->stream(), report);
-    outputs.commit();
-    for (const std::string* path : {&options.json, &options.csv, &options.report, &options.svg})
-        if (*path == "-") return;
-    std::cout << options.trace << ": " << session.recording.format << ", " << frames_text(session.recording.frames)
-              << ", " << (session.course ? "closed" : "open") << " loop, delay " << session.delay << ", target "
-              << session.recording.trace.settings.at("target_ms") << " ms\n";
-    write_scores(std::cout, report.runs);
-}
-
 void run(const ReplayOptions& options) {
     if (!options.simulated.scenario.empty()) return simulate(options.simulated);
-    if (options.verify) return verify(options.trace);
+    if (options.verify) return verify(options.recordings.front());
     if (options.explained) return explain(options);
     if (options.fit) return fit(options);
-    replay(options);
+    review(options);
 }
 
 }  // namespace

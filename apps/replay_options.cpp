@@ -1,5 +1,7 @@
 #include "apps/replay_options.h"
 
+#include <algorithm>
+
 #include "apps/contestants.h"
 #include "apps/places.h"
 #include "apps/program.h"
@@ -10,13 +12,16 @@ namespace apps {
 namespace {
 
 const std::string examples = R"(Examples:
-  replay out/stadium.csv                                the run again, with decisions of its law
-  replay game.csv --process game.exe --target-ms 8.3    what PresentMon, OCAT, CapFrameX, FrameView, MangoHud,
-                                                        FRAPS, Afterburner or Unreal recorded, as the load of our
-                                                        reference crowd
+  replay game.csv --report game.html                    how a game ran and why it stuttered, as a page to look at:
+                                                        of what PresentMon, OCAT, CapFrameX, FrameView, MangoHud,
+                                                        FRAPS, Afterburner or Unreal recorded
+  replay before.csv after.csv                           is the second really faster?
+  replay game.csv --process game.exe --target-ms 8.3    how many frames took longer
   replay bench.csv.gz --column "GPU frame" --unit us    any table with a column of times
   replay out/stadium.csv --law paper,predictive --report laws.html
-  replay out/stadium.csv --open-loop --csv decisions.csv --json -
+                                                        what control laws would have made of it
+  replay game.csv --law predictive --json -             the same of a game, as the load of our reference crowd
+  replay out/stadium.csv --open-loop --csv decisions.csv
   replay out/stadium.csv --fit                          what each kind of work cost
   replay out/stadium.csv --verify                       is every recorded decision reproduced to the bit?
   replay out/stadium.csv --explain 120                  why frame 120 is drawn as it is, in words
@@ -27,16 +32,32 @@ A recording holds the load under the decisions of its own. Closed loop: the time
 makes of it, times that load. Open loop: each recorded time is taken for the time of the law's own decision.
 With --verify, failed is also what is not reproduced.)";
 
+void check_count(const ReplayOptions& options) {
+    const std::size_t count = options.recordings.size();
+    if (count == 0) throw std::invalid_argument("found no RECORDING, expected the recording of a run or --simulate");
+    if (std::count(options.recordings.begin(), options.recordings.end(), "-") > 1)
+        throw std::invalid_argument("found - twice, expected standard input once");
+    if (count == 1) return;
+    const bool needs_one = options.verify || options.explained || options.fit || options.open_loop;
+    if (needs_one || !options.laws.empty()) {
+        throw std::invalid_argument("found " + std::to_string(count) +
+                                    " recordings, expected one with --law, --open-loop, --verify, --explain or --fit");
+    }
+}
+
 }  // namespace
 
 void add_replay_options(CLI::App& app, ReplayOptions& options) {
     describe(app, examples);
-    auto* trace = app.add_option("TRACE", options.trace,
-                                 "What stadium --trace or another tool recorded; may be gzipped (- = stdin)");
-    auto* law = app.add_option("--law", options.laws, "Law to feed, LAW[,LAW ...], or all; default: the trace's");
+    auto* trace = app.add_option("RECORDING", options.recordings,
+                                 "Files that stadium --trace or other tools recorded, or folders of them; may be "
+                                 "gzipped (- = stdin)")
+                      ->take_all();
+    auto* law = app.add_option("--law", options.laws, "Law to feed, LAW[,LAW ...], or all; default: none");
     auto* target =
         app.add_option("--target-ms", options.target_ms,
-                       "Target, MS[,MS@FRAME ...] in milliseconds; default: the trace's, frame by frame, or 16.6");
+                       "Target, MS[,MS@FRAME ...] in milliseconds; default: the trace's, frame by frame, or 16.6 "
+                       "of a law");
     auto* delay = app.add_option("--delay", options.delay,
                                  "Frames that a time arrives late; default: the trace's, or 2 of another recording")
                       ->check(whole_number(0, sfsm::max_delay));
@@ -50,9 +71,12 @@ void add_replay_options(CLI::App& app, ReplayOptions& options) {
                        "Column of any table that has the frame times: its name, or number where it has none");
     auto* unit = app.add_option("--unit", options.unit, "Unit of these times; default: the column's name or a guess")
                      ->check(CLI::IsMember({"ms", "us", "s", "fps"}));
-    auto* open = app.add_flag("--open-loop", options.open_loop, "Only what the law would decide");
+    auto* open = app.add_flag("--open-loop", options.open_loop,
+                              "Only what the law would decide; default law: the trace's, or predictive");
     auto* json = app.add_option("--json", options.json, "Write the figures as JSON (- = stdout)");
-    auto* csv = app.add_option("--csv", options.csv, "Write the run as a trace (- = stdout); of one law");
+    auto* csv = app.add_option("--csv", options.csv,
+                               "Write the frames as a table, or what one law made of them as a trace (- = "
+                               "stdout)");
     auto* report = app.add_option("--report", options.report, "Write a page to look at, HTML (- = stdout)");
     auto* svg = app.add_option("--svg", options.svg, "Write the picture of it, SVG (- = stdout)");
     auto* fit =
@@ -75,10 +99,11 @@ void check(ReplayOptions& options) {
     options.simulated.json = options.json;
     const Place outputs[] = {
         {"--json", options.json}, {"--csv", options.csv}, {"--report", options.report}, {"--svg", options.svg}};
-    const Place inputs[] = {{"TRACE", options.trace == "-" ? "" : options.trace}};
+    std::vector<Place> inputs;
+    for (const std::string& path : options.recordings) inputs.push_back({"RECORDING", path == "-" ? "" : path});
     check_places(inputs, outputs);
     if (!options.simulated.scenario.empty()) return check(options.simulated);
-    if (options.trace.empty()) throw std::invalid_argument("found no TRACE, expected the trace of a run or --simulate");
+    check_count(options);
     if (!options.target_ms.empty()) sfsm::TargetSchedule::parse(options.target_ms);
     if (options.laws.empty()) return;
     const std::vector<sfsm::simulate::Contestant> laws = chosen_laws("--law", options.laws);

@@ -5,15 +5,16 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/simulate.h"
 
 namespace apps {
 
 struct ReplayOptions {
-    std::string trace;
-    std::string laws;          // names with commas between, or all; empty: the trace's, or the first there is
-    std::string target_ms;     // empty: the trace's, or the default
+    std::vector<std::string> recordings;  // files and folders; "-": stdin
+    std::string laws;          // names with commas between, or all; empty: none, or the trace's where one is needed
+    std::string target_ms;     // empty: the trace's, or the default of a law
     std::optional<int> delay;  // [frames]; empty: the trace's, or a timer query's
     std::string process;       // empty: the stream with most frames
     std::string swap_chain;    // empty: all of the process that follow one another

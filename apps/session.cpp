@@ -61,6 +61,8 @@ sfsm::Recording read(const std::string& path, const sfsm::RecordingOptions& opti
 }
 
 void set_targets(Session& session, const std::string& asked) {
+    session.has_targets = !asked.empty() || session.recording.has_work() || !session.laws.empty();
+    if (!session.has_targets) return;
     session.targets = sfsm::TargetSchedule::parse(asked.empty() ? sfsm::default_target : std::string_view(asked));
     for (sfsm::TraceRow& row : session.recording.trace.rows) {
         if (!asked.empty() || !(std::isfinite(row.target_ms) && row.target_ms > 0))
@@ -75,10 +77,11 @@ sim::Scenario scenario_of(const Session& session) {
     return sim::recorded_scenario(session.recording.trace.rows, {session.delay, true, session.drawing});
 }
 
-// Those asked for; else the trace's, or of a recording that has none the default.
+// Those asked for; for an open loop else the trace's, or of a recording that has none the default.
 std::vector<sim::Contestant> laws_for(const ReplayOptions& options, const sfsm::Recording& recording) {
+    if (options.laws.empty() && !options.open_loop) return {};
     const bool is_told = recording.has_work() && recording.trace.settings.contains("law");
-    if (options.laws.empty() && is_told) return {law_of(recording.trace, !options.open_loop)};
+    if (options.laws.empty() && is_told) return {law_of(recording.trace, false)};
     std::vector<sim::Contestant> laws =
         chosen_laws("--law", options.laws.empty() ? std::string(sfsm::law_names().front()) : options.laws);
     if (options.open_loop) std::erase_if(laws, needs_course);
@@ -87,17 +90,17 @@ std::vector<sim::Contestant> laws_for(const ReplayOptions& options, const sfsm::
 
 }  // namespace
 
-Session open_session(const ReplayOptions& options) {
+Session open_session(const ReplayOptions& options, const std::string& path) {
     Session session;
     session.recording =
-        read(options.trace, {options.process, options.swap_chain, options.column, sfsm::unit_named(options.unit)});
+        read(path, {options.process, options.swap_chain, options.column, sfsm::unit_named(options.unit)});
     const bool has_work = session.recording.has_work();
     session.delay = options.delay.value_or(has_work ? sfsm::trace_delay(session.recording.trace) : gpu_delay);
     if (has_work) session.drawing = sfsm::trace_drawing(session.recording.trace);
     session.laws = laws_for(options, session.recording);
     set_targets(session, options.target_ms);
-    if (!options.open_loop)
-        session.course = made_of(options.trace, [&] { return sim::make_course(scenario_of(session)); });
+    if (!session.laws.empty() && !options.open_loop)
+        session.course = made_of(path, [&] { return sim::make_course(scenario_of(session)); });
     return session;
 }
 
@@ -150,15 +153,20 @@ Rerun rerun(const Session& session, const sim::Contestant& law) {
                           : rerun_open(law, rows_of(session), session.delay, session.drawing);
 }
 
-std::vector<std::pair<std::string, std::string>> facts_of(const Session& session, const std::string& path) {
-    const sfsm::Recording& recording = session.recording;
+std::vector<std::pair<std::string, std::string>> loop_facts(const Session& session) {
+    if (session.laws.empty()) return {};
     std::vector<std::pair<std::string, std::string>> facts = {
-        {"recording", path},
-        {"format", recording.format},
         {"loop",
          session.course ? "closed: a cost model times the recorded load" : "open: the recorded times as they are"},
         {"delay", std::to_string(session.delay) + " frames"}};
-    if (session.course && !recording.has_work()) facts.emplace_back("cost model", "the reference crowd");
+    if (session.course && !session.recording.has_work()) facts.emplace_back("cost model", "the reference crowd");
+    return facts;
+}
+
+std::vector<std::pair<std::string, std::string>> facts_of(const Session& session, const std::string& path) {
+    const sfsm::Recording& recording = session.recording;
+    std::vector<std::pair<std::string, std::string>> facts = {{"recording", path}, {"format", recording.format}};
+    for (const auto& fact : loop_facts(session)) facts.push_back(fact);
     for (const auto& [key, value] : recording.trace.settings)
         if (key != "law" && key != "state" && key != "delay" && key != "format") facts.emplace_back(key, value);
     return facts;

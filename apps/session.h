@@ -1,4 +1,4 @@
-// A recording about to be run through laws: read, with its targets set, and as a course where the loop is closed.
+// A recording that was read; where laws are asked for with its targets set, and as a course where the loop is closed.
 #pragma once
 
 #include <optional>
@@ -20,15 +20,16 @@ namespace apps {
 struct Session {
     sfsm::Recording recording;     // of a trace of ours the rows have the targets of this session
     sfsm::TargetSchedule targets;  // of any other recording
+    bool has_targets = false;      // its own, or asked for
     int delay = 0;                 // [frames]
     sfsm::Drawing drawing = sfsm::Drawing::opengl;
-    std::vector<sfsm::simulate::Contestant> laws;
+    std::vector<sfsm::simulate::Contestant> laws;  // asked for
     std::optional<sfsm::simulate::Course> course;  // closed loop
 };
 
-// Says on stderr what the reader had to say, and adds to its notes which of several streams was taken. Throws what the
-// readers throw.
-Session open_session(const ReplayOptions& options);
+// The recording at `path`. Says on stderr what the reader had to say, and adds to its notes which of several streams
+// was taken. Throws what the readers throw.
+Session open_session(const ReplayOptions& options, const std::string& path);
 
 // A trace of ours, or throws std::runtime_error saying what was found.
 sfsm::Trace read_own_trace(const std::string& path);
@@ -57,7 +58,10 @@ sfsm::RunRows rows_of(const Session& session);
 Rerun recorded_run(const Session& session);
 Rerun rerun(const Session& session, const sfsm::simulate::Contestant& law);
 
-// What is said of the session in a report, in its order.
+// How laws are fed, in the order shown; nothing where none is asked for.
+std::vector<std::pair<std::string, std::string>> loop_facts(const Session& session);
+
+// What is said of the session as JSON, in its order.
 std::vector<std::pair<std::string, std::string>> facts_of(const Session& session, const std::string& path);
 
 // The run as a trace, with the forecasts that the law was given.

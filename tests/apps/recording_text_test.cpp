@@ -128,7 +128,11 @@ TEST(DifferencesTable, SaysWhatIsClear) {
               "time in stutter [%]      1.00      1.50  +0.5 points  -0.1 to +1.1 points\n");
 }
 
-std::string figures_table(const std::vector<NamedFigures>& recordings) {
+using Named = std::pair<std::string, sfsm::Figures>;
+
+std::string figures_table(const std::vector<Named>& named) {
+    std::vector<sfsm::ReportedRecording> recordings;
+    for (const auto& [name, figures] : named) recordings.push_back({name, {}, {}, {}, figures, {}});
     std::ostringstream out;
     write_figures(out, recordings);
     return out.str();
@@ -153,18 +157,18 @@ TEST(FiguresTable, HasAColumnForEachRecording) {
     const std::string table =
         figures_table({{"one.csv", sfsm::figures_of(told_frames(), 3, sfsm::usual_limits_ms)},
                        {"another-name.csv", sfsm::figures_of(bare_frames(50, 20), 0, sfsm::usual_limits_ms)}});
-    EXPECT_EQ(line_of(table, "average"), "average [fps]                  97.0              50.0");
-    EXPECT_EQ(line_of(table, "over 16.7"), "over 16.7 ms [%]               1.00            100.00");
-    EXPECT_EQ(line_of(table, "generated"), "generated besides                 3                 -");
-    EXPECT_EQ(line_of(table, "stutters"), "stutters                          2                 0");
-    EXPECT_EQ(line_of(table, "held up by the GPU"), "held up by the GPU [%]        100.0                 -");
+    EXPECT_EQ(line_of(table, "  average"), "  average [fps]                   97.0              50.0");
+    EXPECT_EQ(line_of(table, "  over 16.7"), "  over 16.7 ms [% of frames]      1.00            100.00");
+    EXPECT_EQ(line_of(table, "  generated"), "  generated                          3                 -");
+    EXPECT_EQ(line_of(table, "  stutters"), "  stutters                           2                 0");
+    EXPECT_EQ(line_of(table, "  GPU"), "  GPU [% of time]                100.0                 -");
 }
 
 TEST(FiguresTable, LeavesOutWhatNoRecordingTells) {
     const std::string table = figures_table({{"a", sfsm::figures_of(bare_frames(50, 20), 0, {})}});
-    for (const char* label : {"held up", "never shown", "generated", "animation", "over"})
+    for (const char* label : {"Held up by", "  dropped", "  generated", "  animation", "  over"})
         EXPECT_EQ(line_of(table, label), "") << label;
-    EXPECT_NE(line_of(table, "frames"), "");
+    EXPECT_NE(line_of(table, "  frames"), "");
 }
 
 std::string csv_of(const std::string& name, const std::vector<FrameRecord>& frames, bool header = true) {
@@ -178,11 +182,12 @@ TEST(FramesCsv, LeavesEmptyWhatIsNotTold) {
     frames[1] = FrameRecord{};
     frames[2].fate = FrameRecord::Fate::dropped;
     frames[2].cpu_ms = 4;
+    frames[2].animation_error_ms = -0.1f;
     EXPECT_EQ(csv_of("a", frames),
               "run,frame,time_s,frame_time_ms,cpu_ms,gpu_ms,display_ms,animation_error_ms,dropped,compilations\n"
               "a,0,0,12.5,,,,,,\n"
               "a,1,0.0125,,,,,,,\n"
-              "a,2,0.0125,12.5,4,,,,1,\n");
+              "a,2,0.0125,12.5,4,,,-0.1,1,\n");
     EXPECT_EQ(csv_of("b", {}, false), "");
 }
 
@@ -211,19 +216,52 @@ TEST(FramesCsv, NumbersReadBackToTheSameBits) {
     }
 }
 
-TEST(FramesCsv, IsReadAsARecordingOfTheSameFrames) {
-    std::vector<FrameRecord> frames = told_frames();
-    frames[20].frame_ms = FrameRecord::untold;
-    for (const std::string name : {"game.csv", "a \"game\", its log;\n2\t.csv", ""}) {
-        std::istringstream in(csv_of(name, frames));
-        const sfsm::Recording recording = sfsm::read_recording(in, "frames.csv");
-        ASSERT_EQ(recording.trace.rows.size(), frames.size()) << name;
-        for (std::size_t i = 0; i < frames.size(); ++i) {
-            EXPECT_TRUE(i == 20 ? std::isnan(recording.trace.rows[i].frame_ms)
-                                : recording.trace.rows[i].frame_ms == frames[i].frame_ms)
-                << name << ' ' << i;
-        }
+sfsm::Recording read_back(const std::string& text, const std::string& run = "") {
+    std::istringstream in(text);
+    return sfsm::read_recording(in, "frames.csv", {.process = run});
+}
+
+// Two numbers, or none on both sides.
+template <class Number>
+bool is_same(Number a, Number b) {
+    return a == b || (std::isnan(a) && std::isnan(b));
+}
+
+void expect_same(const std::vector<FrameRecord>& found, const std::vector<FrameRecord>& expected) {
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const FrameRecord &a = found[i], &b = expected[i];
+        EXPECT_TRUE(is_same(a.frame_ms, b.frame_ms) && is_same(a.cpu_ms, b.cpu_ms) && is_same(a.gpu_ms, b.gpu_ms)) << i;
+        EXPECT_TRUE(is_same(a.display_ms, b.display_ms)) << i << ' ' << a.display_ms << ' ' << b.display_ms;
+        EXPECT_TRUE(is_same(a.animation_error_ms, b.animation_error_ms)) << i;
+        EXPECT_TRUE(is_same(a.compilations, b.compilations)) << i;
+        EXPECT_EQ(a.fate, b.fate) << i;
     }
+}
+
+// Frames of which everything is told somewhere and not told elsewhere; one that was dropped has no display's time.
+std::vector<FrameRecord> partly_told_frames() {
+    std::vector<FrameRecord> frames = told_frames();
+    frames[7].display_ms = frames[7].animation_error_ms = FrameRecord().display_ms;
+    frames[20] = FrameRecord{};
+    frames[30].cpu_ms = frames[31].gpu_ms = FrameRecord::untold;
+    frames[32].compilations = FrameRecord().compilations;
+    frames[33].fate = FrameRecord::Fate::untold;
+    return frames;
+}
+
+TEST(FramesCsv, IsReadAsARecordingOfTheSameFrames) {
+    for (const std::string name : {"game.csv", "a \"game\", its log;\n2\t.csv", ""}) {
+        SCOPED_TRACE(name);
+        expect_same(read_back(csv_of(name, partly_told_frames())).frames, partly_told_frames());
+        expect_same(read_back(csv_of(name, bare_frames(3, 12.5))).frames, bare_frames(3, 12.5));
+    }
+}
+
+TEST(FramesCsv, OfSeveralRunsEachIsReadByItsName) {
+    const std::string text = csv_of("old.csv", partly_told_frames()) + csv_of("new.csv", bare_frames(3, 12.5), false);
+    expect_same(read_back(text).frames, partly_told_frames());
+    expect_same(read_back(text, "new.csv").frames, bare_frames(3, 12.5));
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ TEST_F(ReplayProgram, HelpAndVersionSucceed) {
 TEST_F(ReplayProgram, UsageErrorsAreOneLineAndCode2) {
     const std::string trace = save(recorded());
     const std::pair<std::string, const char*> bads[] = {
-        {"", "found no TRACE"},
+        {"", "found no RECORDING"},
         {"--nonsense", "--nonsense"},
         {trace + " --nonsense", "--nonsense"},
         {trace + " --law papier", "papier"},
@@ -97,10 +97,12 @@ TEST_F(ReplayProgram, UsageErrorsAreOneLineAndCode2) {
         {trace + " --explain 3 --verify", "--explain"},
         {trace + " --explain 3 --delay 1", "--explain"},
         {trace + " --explain 3 --law oracle", "oracle"},
-        {"--explain 3", "found no TRACE"},
+        {"--explain 3", "found no RECORDING"},
         {trace + " --fit --law paper", "--fit"},
         {trace + " --json " + trace, "--json"},
-        {trace + " another.csv", "another.csv"},
+        {trace + " another.csv --law paper", "found 2 recordings, expected one with --law"},
+        {trace + " another.csv --verify", "found 2 recordings"},
+        {"- -", "found - twice"},
         {trace + " --csv", "--csv"},
     };
     for (const auto& [arguments, named] : bads) {
@@ -119,14 +121,15 @@ TEST_F(ReplayProgram, BadFilesAreOneLineAndCode1) {
     sfsm::Trace too_slow = recorded();
     for (sfsm::TraceRow& row : too_slow.rows) row.target_ms = 1e7;
     const std::string trace = save(recorded()), folder = fs::path(trace).parent_path();
+    fs::create_directory(in_folder("none"));
     const std::pair<std::string, const char*> bads[] = {
         {in_folder("missing.csv"), "missing.csv: No such file"},
         {in_folder("damaged.csv"), "damaged.csv:2: found"},
         {in_folder("empty.csv"), "empty.csv"},
-        {folder, "expected"},
+        {in_folder("none"), "none: found no file in the folder"},
         {save(unmeasured, "unmeasured.csv"), "unmeasured.csv: found no time in 600 frames"},
         {save(unmeasured, "unmeasured.csv") + " --fit", "unmeasured.csv: found 0 frames with a time"},
-        {save(too_slow, "too_slow.csv"), "too_slow.csv: frame 0: found target 1e+07 ms"},
+        {save(too_slow, "too_slow.csv") + " --law paper", "too_slow.csv: frame 0: found target 1e+07 ms"},
         {capture() + " --process nobody.exe", "game.exe"},
         {capture() + " --swap-chain 0x9", "game.exe"},
         {capture() + " --verify", "expected a trace of ours"},
@@ -181,7 +184,7 @@ TEST_F(ReplayProgram, DecisionsByRateAreReproducedToTheBitAndRerun) {
     const Outcome verified = replay(saved + " --verify");
     EXPECT_EQ(verified.code, 0) << verified.err;
     EXPECT_NE(verified.out.find("all 200 decisions"), std::string::npos) << verified.out;
-    for (const char* loop : {"", " --open-loop"}) {
+    for (const char* loop : {" --law predictive", " --open-loop"}) {
         const Outcome rerun = replay(saved + loop + " --csv -");
         ASSERT_EQ(rerun.code, 0) << rerun.err;
         std::istringstream in(rerun.out);
@@ -320,7 +323,7 @@ TEST_F(ReplayProgram, TakesTheBeliefsOfWhatDrewTheTrace) {
     for (const std::string& same : {unsaid, gl}) EXPECT_EQ(replay(same + " --verify").code, 0) << same;
     EXPECT_EQ(replay(native + " --verify").code, 1) << "natively its law would have begun otherwise";
     EXPECT_EQ(replay(unsaid + " --fit --json -").out, replay(gl + " --fit --json -").out);
-    for (const char* loop : {"", " --open-loop"}) {
+    for (const char* loop : {" --law predictive", " --open-loop"}) {
         ASSERT_EQ(replay(native + loop + " --csv " + in_folder("out.csv")).code, 0) << loop;
         EXPECT_NE(content("out.csv").find("# draw=native\n"), std::string::npos);
         const Outcome again = replay(in_folder("out.csv") + " --verify");
@@ -334,7 +337,7 @@ TEST_F(ReplayProgram, NamesTheTraceWhoseLawIsNone) {
         sfsm::Trace trace = recorded();
         trace.settings["law"] = law;
         const std::string saved = save(trace);
-        for (const std::string option : {"", " --verify", " --open-loop"}) {
+        for (const std::string option : {" --verify", " --open-loop"}) {
             const Outcome outcome = replay(saved + option);
             EXPECT_EQ(outcome.code, 1) << law << option;
             EXPECT_TRUE(
@@ -343,6 +346,7 @@ TEST_F(ReplayProgram, NamesTheTraceWhoseLawIsNone) {
             EXPECT_TRUE(tests::one_line(outcome.err)) << outcome.err;
         }
         EXPECT_EQ(replay(saved + " --law paper").code, 0);
+        EXPECT_EQ(replay(saved).code, 0) << "no law is asked for";
     }
 }
 
@@ -366,7 +370,8 @@ TEST_F(ReplayProgram, TheClairvoyantDecidesInClosedLoopsAlone) {
 
 TEST_F(ReplayProgram, WritesATraceThatVerifiesAgain) {
     const std::string trace = save(recorded());
-    for (const std::string loop : {"", " --open-loop", " --law valve", " --law robust-mpc --open-loop"}) {
+    for (const std::string loop :
+         {" --law predictive", " --open-loop", " --law valve", " --law robust-mpc --open-loop"}) {
         ASSERT_EQ(replay(trace + loop + " --target-ms 20,9@300 --delay 3 --csv " + in_folder("out.csv")).code, 0);
         const Outcome again = replay(in_folder("out.csv") + " --verify");
         EXPECT_EQ(again.code, 0) << again.err;
@@ -395,8 +400,8 @@ TEST_F(ReplayProgram, AnOpenLoopDoesNotKnowWhatBecameOfItsDecisions) {
 // The load is the recording's whoever decides, and a law that aims at less takes less.
 TEST_F(ReplayProgram, AClosedLoopAnswersToItsDecisions) {
     const std::string trace = save(recorded());
-    const json loose = json::parse(replay(trace + " --target-ms 20 --json -").out);
-    const json tight = json::parse(replay(trace + " --target-ms 8 --json -").out);
+    const json loose = json::parse(replay(trace + " --law predictive --target-ms 20 --json -").out);
+    const json tight = json::parse(replay(trace + " --law predictive --target-ms 8 --json -").out);
     EXPECT_EQ(loose["delay"], 2);
     EXPECT_EQ(loose["recorded"]["mean_ms"], tight["recorded"]["mean_ms"]);
     EXPECT_LT(tight["runs"][0]["p50_ms"], 9);
@@ -465,7 +470,7 @@ TEST_F(ReplayProgram, FramesAreCountedAlikeEverywhere) {
     EXPECT_EQ(figures.at("runs").at(0).at("frames"), 10);
     EXPECT_EQ(figures.at("generated"), 10);
     const std::string table = replay(in_folder("game.csv") + " --open-loop").out;
-    EXPECT_NE(table.find(", 10 frames and 1 without a time, "), std::string::npos) << table;
+    EXPECT_NE(table.find(", 10 frames and 1 without a time\n"), std::string::npos) << table;
 }
 
 // Names are other people's: they can't steer a terminal, nor make two lines of one.
@@ -483,7 +488,7 @@ TEST_F(ReplayProgram, StreamsOfAnyNameAreListedOnOneLine) {
 
 // 16 ms of load are held at 12 as soon as they are known, and 32 are too.
 TEST_F(ReplayProgram, HoldsACaptureAtTheTarget) {
-    const Outcome outcome = replay(capture() + " --target-ms 12 --json -");
+    const Outcome outcome = replay(capture() + " --law predictive --target-ms 12 --json -");
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     const json figures = json::parse(outcome.out);
     EXPECT_EQ(figures.at("recorded").at("over_5pct"), 1);
@@ -493,14 +498,15 @@ TEST_F(ReplayProgram, HoldsACaptureAtTheTarget) {
 
 // No law can miss a target that is out of reach for all: that is no zero to be proud of.
 TEST_F(ReplayProgram, WhatNoFrameIsJudgedByIsNoFigure) {
-    const json unmet = json::parse(replay(capture() + " --target-ms 0.01 --json -").out).at("runs").at(0);
+    const json unmet =
+        json::parse(replay(capture() + " --law predictive --target-ms 0.01 --json -").out).at("runs").at(0);
     EXPECT_EQ(unmet.at("over_5pct"), 1);
     for (const char* name : {"over_target", "worst_second", "hitch_ms_per_s", "overshoot_pct"})
         EXPECT_TRUE(unmet.at(name).is_null()) << name;
-    const json met = json::parse(replay(capture() + " --target-ms 12 --json -").out).at("runs").at(0);
+    const json met = json::parse(replay(capture() + " --law predictive --target-ms 12 --json -").out).at("runs").at(0);
     for (const char* name : {"over_target", "worst_second", "hitch_ms_per_s", "overshoot_pct"})
         EXPECT_TRUE(met.at(name).is_number()) << name;
-    const Outcome table = replay(capture() + " --target-ms 0.01");
+    const Outcome table = replay(capture() + " --law predictive --target-ms 0.01");
     EXPECT_NE(table.out.find("\nlate [ms/s]                          -           -\n"), std::string::npos) << table.out;
 }
 
@@ -527,6 +533,86 @@ TEST_F(ReplayProgram, TheTableGoesToStandardOutputUnlessAFileDoes) {
     EXPECT_NE(replay(trace).out.find("\ncontrol rate "), std::string::npos);
     EXPECT_EQ(replay(trace + " --csv -").out.find("\ncontrol rate "), std::string::npos);
     EXPECT_NE(replay(trace + " --json " + in_folder("s.json")).out.find("\ncontrol rate "), std::string::npos);
+}
+
+// A game's log of frames of one length, but for one that is ten times as long.
+void write_log(const std::string& path, double ms, int frames = 300) {
+    std::ofstream file(path);
+    file << "Application,ProcessID,SwapChainAddress,MsBetweenPresents,MsUntilDisplayed\n";
+    for (int i = 0; i < frames; ++i)
+        file << "game.exe,1,0x1," << (i == 100 ? 10 * ms : ms + 0.01 * (i % 7)) << ',' << 5 << '\n';
+}
+
+TEST_F(ReplayProgram, WithoutALawARecordingIsOnlyLookedAt) {
+    write_log(in_folder("game.csv"), 10);
+    const Outcome outcome = replay(in_folder("game.csv") + " --json " + in_folder("g.json"));
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.out.find("control rate"), std::string::npos) << outcome.out;
+    const auto parsed = json::parse(content("g.json"));
+    EXPECT_EQ(parsed.at("runs"), json::array());
+    for (const char* key : {"loop", "delay", "cost model", "target_ms"}) EXPECT_FALSE(parsed.contains(key)) << key;
+    EXPECT_FALSE(parsed.at("recorded").contains("control_rate"));
+    const auto& figures = parsed.at("recorded").at("figures");
+    EXPECT_EQ(figures.at("frames"), 300);
+    EXPECT_NEAR(figures.at("average_fps"), 1000 / parsed.at("recorded").at("mean_ms").get<double>(), 1e-9);
+    EXPECT_NEAR(figures.at("max_ms"), 100, 1e-9);
+    EXPECT_EQ(figures.at("stutter").at("count"), 1);
+}
+
+TEST_F(ReplayProgram, ATargetAloneOnlyCountsTheFramesOverIt) {
+    write_log(in_folder("game.csv"), 10);
+    const auto parsed = json::parse(replay(in_folder("game.csv") + " --target-ms 10.055 --json -").out);
+    EXPECT_EQ(parsed.at("runs"), json::array());
+    EXPECT_EQ(parsed.at("recorded").at("over_target_frames"), 300 / 7 + 1) << "one in seven, and the long one";
+    const auto stepped = json::parse(replay(in_folder("game.csv") + " --target-ms 5,20@200 --json -").out);
+    EXPECT_EQ(stepped.at("recorded").at("over_target_frames"), 200);
+}
+
+TEST_F(ReplayProgram, SeveralRecordingsAreCompared) {
+    fs::create_directories(in_folder("logs/older"));
+    write_log(in_folder("logs/a.csv"), 10, 4000);
+    write_log(in_folder("logs/b.csv"), 8, 4000);
+    write_log(in_folder("logs/older/a.csv"), 10, 4000);
+    std::ofstream(in_folder("logs/notes.txt")) << "these are my logs\n";
+    const Outcome folder = replay(in_folder("logs") + " --json " + in_folder("f.json"));
+    ASSERT_EQ(folder.code, 0) << folder.err;
+    EXPECT_NE(folder.err.find("passed over: " + in_folder("logs/notes.txt")), std::string::npos) << folder.err;
+    const auto parsed = json::parse(content("f.json"));
+    ASSERT_EQ(parsed.at("recordings").size(), 2u);
+    EXPECT_EQ(parsed.at("recordings")[1].at("recording"), in_folder("logs/b.csv"));
+    ASSERT_EQ(parsed.at("comparisons").size(), 1u);
+    const auto& average = parsed.at("comparisons")[0].at("differences")[0];
+    EXPECT_NEAR(average.at("change"), 0.25, 0.01);
+    EXPECT_GT(average.at("low"), 0);
+    const Outcome named = replay(in_folder("logs/a.csv") + " " + in_folder("logs/notes.txt"));
+    EXPECT_EQ(named.code, 1) << "a file that is named must be a recording";
+    const Outcome alike = replay(in_folder("logs/a.csv") + " " + in_folder("logs/older/a.csv"));
+    EXPECT_NE(alike.out.find(" logs/a.csv  older/a.csv"), std::string::npos) << alike.out;
+}
+
+TEST_F(ReplayProgram, WritesTheFramesAsUnderstood) {
+    write_log(in_folder("a.csv"), 10);
+    write_log(in_folder("b.csv"), 8, 50);
+    ASSERT_EQ(replay(in_folder("a.csv") + " " + in_folder("b.csv") + " --csv " + in_folder("frames.csv")).code, 0);
+    const std::string text = content("frames.csv");
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1 + 300 + 50);
+    EXPECT_NE(text.find("\na.csv,100,"), std::string::npos);
+    EXPECT_NE(text.find("\nb.csv,49,"), std::string::npos);
+}
+
+TEST_F(ReplayProgram, APageTellsNothingOfTheMachineItWasMadeOn) {
+    write_log(in_folder("game.csv"), 10);
+    std::ofstream(in_folder("hurt.csv")) << "MsBetweenPresents,MsUntilDisplayed\n10,1\nx,1\n11,2\n12,1\n";
+    for (const std::string& arguments :
+         {in_folder("game.csv"), in_folder("hurt.csv"), in_folder("game.csv") + " --law paper",
+          in_folder("game.csv") + " " + in_folder("hurt.csv")}) {
+        ASSERT_EQ(replay(arguments + " --report " + in_folder("p.html") + " --svg " + in_folder("p.svg")).code, 0);
+        for (const char* name : {"p.html", "p.svg"}) {
+            const std::string text = content(name);
+            EXPECT_EQ(text.find(fs::path(in_folder("")).parent_path().string()), std::string::npos) << arguments;
+            EXPECT_EQ(text.find("/tmp"), std::string::npos) << arguments;
+        }
+    }
 }
 
 TEST_F(ReplayProgram, NothingHalfWrittenIsLeft) {
