@@ -240,4 +240,46 @@ TEST(Picture, ThePercentilesAreNearestRanks) {
               (std::vector<std::string>{"10.0", "500.0", "900.0", "950.0", "990.0", "999.0", "1000.0"}));
 }
 
+// Frames of 10 to 29 ms, one after the other.
+std::vector<sfsm::FrameRecord> recorded_frames() {
+    std::vector<sfsm::FrameRecord> frames(frame_count);
+    for (int i = 0; i < frame_count; ++i) frames[static_cast<std::size_t>(i)].frame_ms = 10 + i;
+    return frames;
+}
+
+TEST(Picture, RecordedTimesLieOverTheirSeconds) {
+    const std::vector<sfsm::FrameRecord> frames = recorded_frames();
+    Report report;
+    report.recordings.push_back({"game", {}, {}, frames, sfsm::figures_of(frames, 0, {}), sfsm::stutters_of(frames)});
+    std::ostringstream out;
+    sfsm::write_report_svg(out, report);
+    const auto found = curves(out.str(), first_colour);
+    ASSERT_EQ(found.size(), 1u) << "no law, no D and S";
+    ASSERT_EQ(found[0].size(), frames.size());
+    const Scale times(out.str(), 0);
+    double begins = 0, all = 0;
+    for (const sfsm::FrameRecord& frame : frames) all += frame.frame_ms;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const double middle = begins + frames[i].frame_ms / 2;
+        EXPECT_NEAR(found[0][i].x, left + middle / all * (right - left), hundredths) << i;
+        EXPECT_NEAR(found[0][i].y, times(frames[i].frame_ms), hundredths) << i;
+        begins += frames[i].frame_ms;
+    }
+    for (const Label& label : labels(out.str())) {
+        if (label.anchor != "middle") continue;
+        EXPECT_NEAR(label.x, left + 1000 * std::stod(label.text) / all * (right - left), hundredths) << label.text;
+    }
+}
+
+TEST(Picture, ARecordingWithoutTimesIsAnEmptyChart) {
+    const std::vector<sfsm::FrameRecord> frames(3);
+    Report report;
+    report.recordings.push_back({"game", {}, {}, frames, sfsm::figures_of(frames, 0, {}), {}});
+    std::ostringstream out;
+    sfsm::write_report_svg(out, report);
+    EXPECT_EQ(out.str().find("nan"), std::string::npos);
+    EXPECT_EQ(out.str().find("inf"), std::string::npos);
+    EXPECT_TRUE(curves(out.str(), first_colour).empty());
+}
+
 }  // namespace
