@@ -42,7 +42,6 @@ void add_metrics(std::vector<sfsm::Score>& scores, const Rerun& rerun) {
     scores.push_back({"detail of the best", "%", quality, 1, Better::more});
     scores.push_back({"worst second over by 5 %", "%", 100 * metrics.worst_second, 1, Better::less});
     scores.push_back({"late", "ms/s", metrics.hitch_ms_per_s, 1, Better::less});
-    scores.push_back({"changes", "/1000", changes_per_1000(rerun.frames), 0, Better::less});
 }
 
 std::string value_text(const sfsm::Score& score) {
@@ -91,13 +90,20 @@ sfsm::ReportFrame report_frame(const RerunFrame& frame) {
 
 }  // namespace
 
-sfsm::ReportRun report_run(const Rerun& rerun) {
-    sfsm::ReportRun run{rerun.law, {}, {}};
-    run.frames.reserve(rerun.frames.size());
-    for (const RerunFrame& frame : rerun.frames) run.frames.push_back(report_frame(frame));
-    run.scores = sfsm::time_scores(run.frames);
-    add_metrics(run.scores, rerun);
-    return run;
+std::vector<sfsm::ReportRun> report_runs(std::span<const Rerun> reruns) {
+    const bool is_closed =
+        std::any_of(reruns.begin(), reruns.end(), [](const Rerun& rerun) { return rerun.metrics.has_value(); });
+    std::vector<sfsm::ReportRun> runs;
+    for (const Rerun& rerun : reruns) {
+        sfsm::ReportRun& run = runs.emplace_back();
+        run.name = rerun.law;
+        run.frames.reserve(rerun.frames.size());
+        for (const RerunFrame& frame : rerun.frames) run.frames.push_back(report_frame(frame));
+        run.scores = sfsm::time_scores(run.frames);
+        if (is_closed) add_metrics(run.scores, rerun);
+        run.scores.push_back({"changes", "/1000", changes_per_1000(rerun.frames), 0, sfsm::Score::Better::less});
+    }
+    return runs;
 }
 
 void write_scores(std::ostream& out, std::span<const sfsm::ReportRun> runs) {

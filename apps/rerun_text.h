@@ -13,8 +13,8 @@
 
 namespace apps {
 
-// With the scores of a closed loop where there are metrics; a list without has the same scores, without values.
-sfsm::ReportRun report_run(const Rerun& rerun);
+// Runs of one table: with the scores of a closed loop where any has metrics, without values where it has none itself.
+std::vector<sfsm::ReportRun> report_runs(std::span<const Rerun> reruns);
 
 // A table of the runs' scores, a line a figure and a column a run.
 void write_scores(std::ostream& out, std::span<const sfsm::ReportRun> runs);

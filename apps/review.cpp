@@ -191,7 +191,7 @@ constexpr const char* open_words =
 void add_runs(sfsm::Report& report, const Reviewed& one, const std::vector<Rerun>& reruns) {
     const bool is_own = one.session.recording.has_work();
     if (!one.has_laws() && !is_own) return;
-    for (const Rerun& rerun : reruns) report.runs.push_back(report_run(rerun));
+    report.runs = report_runs(reruns);
     report.facts = loop_facts(one.session);
     report.runs_title = one.has_laws() ? "What a controller would have made of it" : "What the controller decided";
     report.runs_words = one.session.course ? closed_words

@@ -19,9 +19,12 @@ using namespace report;
 constexpr std::size_t most_over_each_other = 7;  // runs in one chart: what was recorded, and six laws
 
 void write_facts(std::ostream& out, const Report& report) {
+    if (report.facts.empty()) return;
+    out << "<div class=\"facts\">\n<h3>The run</h3>\n<dl>\n";
     for (const auto& [name, value] : report.facts) {
         out << "<div><dt>" << escaped(name) << "</dt><dd>" << escaped(value) << "</dd></div>\n";
     }
+    out << "</dl>\n</div>\n";
 }
 
 // What is marked: the value none of the others beats, unless all are the same as they are shown.
