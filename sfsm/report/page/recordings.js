@@ -1,6 +1,7 @@
 // What was recorded: frame times over time, what the display and the animation did, who was busy, how it is spread.
 
-const causes = ["recorder starting", "shader compilation", "GPU", "CPU", "waiting", "untold"];
+const causes = ["start of the recorder", "shader compilation", "GPU", "CPU", "waiting", "not told"];
+const shortCauses = ["start", "shaders", "GPU", "CPU", "waiting", ""];
 
 function decodeRecording({ name, frames, seconds, series, stutters }, index) {
   const read = (key) => decodeSeries(frames, series[key]);
@@ -70,16 +71,21 @@ function startRecordings() {
     if (areThin) add(group, "path", { class: "curve measured", d: curvePath(meanBuckets(series, buckets), places, x, y, false) });
   }
 
-  // A mark below each stutter, of those that share a place one.
+  // A mark below each stutter, of those that share a place one; with its cause where there is room for the word.
   function drawStutters(chart, run, places, bottom) {
-    let path = "", last = -Infinity;
-    for (const frame of run.stutters) {
+    const marks = [];
+    run.stutters.forEach((frame, i) => {
       const place = (along(chart.x, places.begins(frame)) + along(chart.x, places.begins(frame + 1))) / 2;
-      if (place < chart.x.begin - 5 || place > chart.x.end + 5 || place - last < 4) continue;
-      path += `M${px(place - 4)} ${bottom}l4 -9l4 9z`;
-      last = place;
-    }
-    if (path) add(addRun(chart.layer, run), "path", { class: "stutter-mark", d: path });
+      const isInView = place > chart.x.begin - 5 && place < chart.x.end + 5;
+      if (isInView && place - (marks.at(-1)?.place ?? -Infinity) >= 4) marks.push({ place, cause: shortCauses[run.causes[i]] });
+    });
+    if (marks.length === 0) return;
+    const group = addRun(chart.layer, run);
+    add(group, "path", { class: "stutter-mark", d: marks.map(({ place }) => `M${px(place - 4)} ${bottom}l4 -9l4 9z`).join("") });
+    marks.forEach(({ place, cause }, i) => {
+      const room = (marks[i + 1]?.place ?? chart.x.end) - place - 14;
+      if (cause && room > 7 * cause.length) add(group, "text", { x: px(place + 7), y: bottom }, cause);
+    });
   }
 
   function drawSeries(id, key, isSigned) {
