@@ -94,7 +94,9 @@ function startRecordings() {
     const chart = charts[id] = openChart(id, plot + 22, plot, view, drawLabels);
     const { x } = chart;
     const told = shown().filter((run) => run[key]);
-    const curves = told.map((run) => ({ run, places: placesOf(run), values: thin(run[key], placesOf(run), x) }));
+    // From shown frame to shown frame: those that were never shown are no gap in what is seen.
+    const known = (buckets) => buckets.filter(({ low, high }) => low <= high);
+    const curves = told.map((run) => ({ run, places: placesOf(run), values: known(thin(run[key], placesOf(run), x)) }));
     const buckets = curves.flatMap(({ values }) => values);
     const y = chart.y = isSigned ? signedAxis(buckets, plot)
         : timesAxis("fitted", buckets, [], () => sortedSample(told.map((run) => sampleInView(run[key], placesOf(run), x))), plot, 8);
