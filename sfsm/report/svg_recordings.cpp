@@ -118,6 +118,12 @@ bool is_told(const std::vector<float>& values) {
     return std::any_of(values.begin(), values.end(), [](float value) { return std::isfinite(value); });
 }
 
+double sum_of(const std::vector<float>& values) {
+    double sum = 0;
+    for (const float value : values) sum += std::isfinite(value) ? static_cast<double>(value) : 0;
+    return sum;
+}
+
 // Of the first recording: of several, areas would cover each other.
 double draw_busy(std::string& out, const Report& report, const Course& course, const Axis& seconds, double top) {
     const ReportedRecording& recording = report.recordings.front();
@@ -128,24 +134,35 @@ double draw_busy(std::string& out, const Report& report, const Course& course, c
     out += chart_frame("GPU (blue) and CPU (orange) busy [ms]" +
                            (report.recordings.size() > 1 ? " of " + shortened(recording.name, 40) : ""),
                        y, 3);
-    out += area(gpu, course, y, gpu_colour) + area(cpu, course, y, cpu_colour);
+    const std::string gpu_area = area(gpu, course, y, gpu_colour), cpu_area = area(cpu, course, y, cpu_colour);
+    out += sum_of(gpu) > sum_of(cpu) ? gpu_area + cpu_area : cpu_area + gpu_area;  // the greater would hide the other
     out += second_labels(seconds, y.begin + 16);
     return y.begin + 16;
 }
 
-double draw_display(std::string& out, const Report& report, const std::vector<Course>& courses, const Axis& seconds,
-                    double top) {
-    std::vector<std::vector<float>> display;
+// From 0 on, or as far down as up.
+Axis series_axis(const std::vector<float>& values, bool is_signed, double top) {
+    double far = 0;
+    for (const float value : values) far = std::isfinite(value) ? std::max<double>(far, std::abs(value)) : far;
+    if (is_signed && far > 0) return {-1.05 * far, 1.05 * far, top + 134, top + 44};
+    return {0, fitted_top(values, {}), top + 134, top + 44};
+}
+
+// Of all recordings that tell it, from shown frame to shown frame.
+double draw_series(std::string& out, const Report& report, const std::vector<Course>& courses, const Axis& seconds,
+                   const char* title, float FrameRecord::*field, bool is_signed, double top) {
+    std::vector<std::vector<float>> told;
     std::vector<float> all;
     for (const ReportedRecording& recording : report.recordings) {
-        display.push_back(series(recording, &FrameRecord::display_ms));
-        all.insert(all.end(), display.back().begin(), display.back().end());
+        told.push_back(series(recording, field));
+        all.insert(all.end(), told.back().begin(), told.back().end());
     }
     if (!is_told(all)) return top;
-    const Axis y{0, fitted_top(all, {}), top + 134, top + 44};
-    out += chart_frame("Between changes of the display [ms]", y, 3);
-    for (std::size_t i = 0; i < display.size(); ++i) {
-        const std::vector<Bucket> thinned = thin_along(display[i], courses[i]);
+    const Axis y = series_axis(all, is_signed, top);
+    out += chart_frame(title, y, 3);
+    for (std::size_t i = 0; i < told.size(); ++i) {
+        std::vector<Bucket> thinned = thin_along(told[i], courses[i]);
+        std::erase_if(thinned, [](const Bucket& bucket) { return bucket.is_empty(); });
         out += stroke(curve(thinned, courses[i].begins(), y, false), colour_of(i), "stroke-width=\"1.1\"");
     }
     out += second_labels(seconds, y.begin + 16);
@@ -185,7 +202,10 @@ double draw_recordings(std::string& out, const Report& report, double top) {
     for (const ReportedRecording& recording : report.recordings) courses.push_back(course_of(recording, seconds));
     double y = draw_figures(out, report, top) + 54;
     y = draw_times(out, report, courses, seconds, y);
-    y = draw_display(out, report, courses, seconds, y);
+    y = draw_series(out, report, courses, seconds, "Between changes of the display [ms]", &FrameRecord::display_ms,
+                    false, y);
+    y = draw_series(out, report, courses, seconds, "Animation error [ms]: over 0 too soon, under 0 too late",
+                    &FrameRecord::animation_error_ms, true, y);
     y = draw_busy(out, report, courses.front(), seconds, y);
     out += text(chart_right, y + 18, filled(faint_ink) + " text-anchor=\"end\"", "seconds");
     std::vector<std::vector<float>> times;

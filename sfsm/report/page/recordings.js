@@ -124,7 +124,10 @@ function startRecordings() {
     const chart = charts[id] = openChart(id, plot + 22, plot, view, drawLabels);
     const { x } = chart;
     const times = thin(run.time, places, x);
-    const parts = ["gpu", "cpu"].filter((key) => run[key]).map((key) => ({ key, values: thin(run[key], places, x) }));
+    // The greater first, or it would hide the other.
+    const sum = (buckets) => buckets.reduce((all, { low, high }) => (low <= high ? all + low : all), 0);
+    const parts = ["gpu", "cpu"].filter((key) => run[key]).map((key) => ({ key, values: thin(run[key], places, x) }))
+        .sort((a, b) => sum(b.values) - sum(a.values));
     const sample = () => sortedSample([sampleInView(run.time, places, x)]);
     const y = chart.y = timesAxis("fitted", [...times, ...parts.flatMap(({ values }) => values)], [], sample, plot, 8);
     chart.y = makeAxis(0, y.high, plot, 8);
