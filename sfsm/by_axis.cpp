@@ -47,13 +47,13 @@ void AxisLaw::observe(const FrameSample& sample) {
 // the model is told times as they would be at the load that it knows.
 double AxisLaw::ms_of_known_load(const FrameSample& sample, const Amounts& amounts, double detail) {
     if (!costs_.is_ready()) return sample.ms;
-    if (is_out_of_reach() || refresh_.is_waiting()) {
+    if (refresh_.is_waiting() || is_out_of_reach()) {
         drift_ = {};
         newest_ = {};
         return sample.ms;
     }
     // By how much the load differs from the newest frame's, whatever has been learned of prices since.
-    const double residual = std::log(sample.ms) - costs_.predict(amounts).log_ms;
+    const double residual = std::log(sample.ms) - costs_.log_ms(amounts);
     if (newest_.ms > 0) newest_.log_load += residual - log_over_model(newest_);
     newest_ = {sample.frame, sample.ms, amounts, newest_.log_load};
     const double over_model = drift_.ahead(1) - (newest_.log_load - residual);
@@ -69,13 +69,13 @@ double AxisLaw::ms_of_known_load(const FrameSample& sample, const Amounts& amoun
 }
 
 double AxisLaw::log_over_model(const Heard& heard) const {
-    return std::log(heard.ms) - costs_.predict(heard.amounts).log_ms;
+    return std::log(heard.ms) - costs_.log_ms(heard.amounts);
 }
 
 // Times that are far from what was predicted would be taken for another load. So those are kept from the model, unless
 // they prove its prices wrong.
 void AxisLaw::hear_retest(const Amounts& amounts, double ms) {
-    const double residual = std::log(ms) - costs_.predict(amounts).log_ms;
+    const double residual = std::log(ms) - costs_.log_ms(amounts);
     if (reach_retest_.has_disproved(residual, costs_.noise())) {
         costs_.relearn(amounts, ms);
     } else if (std::abs(residual) < near_by * costs_.noise()) {
@@ -85,13 +85,17 @@ void AxisLaw::hear_retest(const Amounts& amounts, double ms) {
 
 void AxisLaw::decide(std::int64_t frame) {
     aim_.target_ms = refresh_.due_ms(aim_.asked_ms);
-    if (costs_.is_ready()) {
-        is_following() ? follow(frame) : turn();
+    bool is_given_up = false;
+    if (costs_.is_ready() && is_following()) {
+        follow(frame);
+    } else if (costs_.is_ready()) {
+        turn();
+        is_given_up = aim_.status.least_ms > aim_.target_ms;
     } else if (costs_.samples() == 0) {
         detail_ = detail_of({State::points, aim_.range, first_splat}, aim_.range);
         aim_.change(reason_to_guess);
     }
-    Drawn drawn = next_drawn();
+    Drawn drawn = next_drawn(is_given_up);
     drawn.decision = decision_at(drawn.detail, aim_.range);
     if (drawn_count_ == 0 || drawn.decision != aim_.status.decision) remember(drawn);
     aim_.status.decision = drawn.decision;
@@ -116,10 +120,9 @@ void AxisLaw::tell() const {
 }
 
 // Where the target is out of reach, the detail that is kept is believed to cost little; under a cap, nothing.
-AxisLaw::Drawn AxisLaw::next_drawn() {
+AxisLaw::Drawn AxisLaw::next_drawn(bool is_given_up) {
     const bool has_less = costs_.is_ready() && detail_ > least_retested;
-    const bool is_given_up = !refresh_.is_waiting() && has_less && is_out_of_reach();
-    const bool is_reach_tested = reach_retest_.step(is_given_up, costs_.shifts());
+    const bool is_reach_tested = reach_retest_.step(is_given_up && has_less && !refresh_.is_waiting(), costs_.shifts());
     const bool is_cap_tested = cap_retest_.step(has_less && aim_.is_capped(refresh_), costs_.shifts());
     if (!is_reach_tested && !is_cap_tested) return {{}, detail_, false};
     aim_.status.is_probe = true;
@@ -141,7 +144,7 @@ void AxisLaw::turn() {
     aim_.status.least_ms = least_ms;
     aim_.status.aim_ms = aim_ms;
     if (detail_ != before) aim_.change(aim_.reason_to_move(now, aim_ms, least_ms));
-    aim_.believe(costs_.predict(amounts_of(detail_)), costs_);
+    aim_.believe(detail_ != before ? costs_.predict(amounts_of(detail_)) : now, costs_);
 }
 
 // Every frame at the detail that meets the aim under the load that is due then.
@@ -198,14 +201,15 @@ bool AxisLaw::is_out_of_reach() const {
 }
 
 double AxisLaw::predicted_ms(double detail) const {
-    return std::exp(costs_.predict(amounts_of(detail)).log_ms);
+    return std::exp(costs_.log_ms(amounts_of(detail)));
 }
 
 // The detail that takes `ms`, in [0, 1].
 double AxisLaw::detail_for(double ms) const {
-    double time = costs_.gain() * costs_.price(0) * frame_amount;
+    const double gain = costs_.gain();
+    double time = gain * costs_.price(0) * frame_amount;
     for (int i = 0; i < detail_steps; ++i) {
-        const double step = costs_.gain() * costs_.price(i + 1) / detail_steps;
+        const double step = gain * costs_.price(i + 1) / detail_steps;
         if (time + step > ms) return (i + std::clamp((ms - time) / step, 0.0, 1.0)) / detail_steps;
         time += step;
     }

@@ -45,7 +45,7 @@ private:
     void turn();
     void follow(std::int64_t frame);
     double ms_of_known_load(const FrameSample& sample, const Amounts& amounts, double detail);
-    Drawn next_drawn();
+    Drawn next_drawn(bool is_given_up);
     void hear_retest(const Amounts& amounts, double ms);
     double sure_detail(double wanted, double least_ms) const;
     void turn_to(double detail, double now_ms, double aim_ms);

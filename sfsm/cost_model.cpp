@@ -35,8 +35,14 @@ constexpr double least_log_ms = -40, most_log_ms = 40;
 // The median of |a - b| of two normal numbers of spread 1.
 constexpr double median_difference = 0.9539;
 
-double dot(const auto& a, const auto& b, int n) {
+// The most there can be is what a law without a forecast has: the loop of it is unrolled.
+template <std::size_t most>
+double dot(const std::array<double, most>& a, const std::array<double, most>& b, int n) {
     double sum = 0;
+    if (n == static_cast<int>(most)) {
+        for (std::size_t i = 0; i < most; ++i) sum += a[i] * b[i];
+        return sum;
+    }
     for (int i = 0; i < n; ++i) sum += a[i] * b[i];
     return sum;
 }
@@ -88,8 +94,7 @@ void CostModel::observe(const Amounts& amounts, double ms) {
     if (samples_ == 0) start(amounts, ms);
     if (samples_ == 1) {
         // Of two first times the shorter is the better guess.
-        Vector gradient;
-        if (seen.log_ms < log_time(amounts, gradient)) start(amounts, ms);
+        if (seen.log_ms < log_ms(amounts)) start(amounts, ms);
     }
     recent_[static_cast<std::size_t>(samples_ % ShiftDetector::window)] = seen;
     if (++samples_ % gain_life == 0) fold_gain();
@@ -100,13 +105,17 @@ void CostModel::observe(const Amounts& amounts, double ms) {
 }
 
 bool CostModel::is_strange(const Seen& seen) const {
-    const Prediction prediction = predict(seen.amounts);
-    return prediction.uncertainty < known && std::abs(seen.log_ms - prediction.log_ms) > strangely_off;
+    return std::abs(seen.log_ms - log_ms(seen.amounts)) > strangely_off && predict(seen.amounts).uncertainty < known;
+}
+
+double CostModel::cost_of(const Amounts& amounts) const {
+    double sum = 0;
+    for (int i = 0; i < belief_.terms; ++i) sum += state_[i + 1] * amounts.of[i];
+    return sum;
 }
 
 double CostModel::log_time(const Amounts& amounts, Vector& gradient) const {
-    double sum = 0;
-    for (int i = 0; i < belief_.terms; ++i) sum += state_[i + 1] * amounts.of[i];
+    const double sum = cost_of(amounts);
     gradient[0] = 1;
     for (int i = 0; i < belief_.terms; ++i) gradient[i + 1] = amounts.of[i] / sum;
     return log_scale_ + state_[0] + std::log(sum);
@@ -219,10 +228,9 @@ void CostModel::take_shift(int count) {
     const auto newest = [&](int i) -> const Seen& {
         return recent_[static_cast<std::size_t>((samples_ - i) % ShiftDetector::window)];
     };
-    Vector gradient;
     double least = most_log_ms, most = 0;
     for (int i = 1; i <= count; ++i) {
-        const double residual = std::abs(newest(i).log_ms - log_time(newest(i).amounts, gradient));
+        const double residual = std::abs(newest(i).log_ms - log_ms(newest(i).amounts));
         least = std::min(least, residual);
         most = std::max(most, residual);
     }
@@ -260,6 +268,10 @@ Prediction CostModel::predict(const Amounts& amounts) const {
     for (int i = 0; i < states_; ++i) variance += gradient[i] * dot(spread_[i], gradient, states_);
     prediction.uncertainty = std::sqrt(std::max(variance, 0.0));
     return prediction;
+}
+
+double CostModel::log_ms(const Amounts& amounts) const {
+    return log_scale_ + state_[0] + std::log(cost_of(amounts));
 }
 
 double CostModel::gain() const {

@@ -19,6 +19,8 @@ inline constexpr int most_terms = 9;
 struct Amounts {
     std::array<double, most_terms> of{};  // >= 0, finite; of[0] > 0
     int terms = 0;                        // the same for all that one model is given
+
+    bool operator==(const Amounts&) const = default;
 };
 
 struct Prediction {
@@ -51,8 +53,9 @@ public:
     // have taken `ms`. Noise and tail stay.
     void relearn(const Amounts& amounts, double ms);
 
-    // Means nothing before is_ready().
+    // Mean nothing before is_ready(). log_ms() is the prediction's, for less than half of its cost.
     Prediction predict(const Amounts& amounts) const;
+    double log_ms(const Amounts& amounts) const;
 
     // Two times have arrived; one alone may be the hitch of a program's first frame.
     bool is_ready() const { return samples_ >= 2; }
@@ -79,6 +82,7 @@ private:
 
     void believe();
     void start(const Amounts& amounts, double ms);
+    double cost_of(const Amounts& amounts) const;  // in units of gain and scale_
     double log_time(const Amounts& amounts, Vector& gradient) const;
     double correct(const Seen& seen);
     double surprise(double standardised) const;

@@ -45,6 +45,7 @@ constexpr double fits = 1.045;                              // [target] refreshe
 }  // namespace
 
 void Floor::observe(double ms, double log_step, double target_ms) {
+    sort_in(ms);
     seen_[next_] = {ms, log_step};
     next_ = (next_ + 1) % history;
     count_ = std::min(count_ + 1, history);
@@ -83,15 +84,25 @@ void Floor::forget() {
     patience_ = std::min(2 * wait, longest_wait);
 }
 
+// The oldest of a full window makes room.
+void Floor::sort_in(double ms) {
+    auto end = sorted_.begin() + static_cast<std::ptrdiff_t>(std::min(count_, window));
+    if (end == sorted_.end()) {
+        const auto oldest = std::lower_bound(sorted_.begin(), end, newest(window - 1).ms);
+        end = std::move(oldest + 1, end, oldest);
+    }
+    const auto place = std::upper_bound(sorted_.begin(), end, ms);
+    std::move_backward(place, end, end + 1);
+    *place = ms;
+}
+
 // The times of the window that lie close together; none if they don't.
 Floor::Level Floor::level() const {
     if (count_ < window) return {};
-    std::array<double, window> sorted;
-    for (std::size_t i = 0; i < window; ++i) sorted[i] = newest(i).ms;
-    std::sort(sorted.begin(), sorted.end());
     Level level;
-    level.longest = late * sorted[window / 2];
-    const std::span<const double> times(sorted.begin(), std::upper_bound(sorted.begin(), sorted.end(), level.longest));
+    level.longest = late * sorted_[window / 2];
+    const std::span<const double> times(sorted_.begin(),
+                                        std::upper_bound(sorted_.begin(), sorted_.end(), level.longest));
     const double n = static_cast<double>(times.size());
     level.ms = std::accumulate(times.begin(), times.end(), 0.0) / n;
     double squares = 0;

@@ -55,6 +55,7 @@ private:
     const Seen& newest(std::size_t back) const { return seen_[(next_ + history - 1 - back) % history]; }
     void follow(double ms);
     void forget();
+    void sort_in(double ms);
     bool has_given_way(const Level& level) const;
     bool is_exact(double ms, double target_ms);
     void find(double target_ms);
@@ -68,9 +69,10 @@ private:
 
     std::array<Seen, history> seen_{};  // a ring
     std::size_t next_ = 0, count_ = 0;
-    Level level_;                    // the newest; it may have ended
-    double ms_ = 0, jitter_ms_ = 0;  // 0: none is known
-    Scores scores_{};                // ln of the odds that times over it are multiples of it, of its half, ...
+    std::array<double, window> sorted_{};  // times of the window
+    Level level_;                          // the newest; it may have ended
+    double ms_ = 0, jitter_ms_ = 0;        // 0: none is known
+    Scores scores_{};                      // ln of the odds that times over it are multiples of it, of its half, ...
     bool is_deaf_ = false;
     int below_ = 0, over_ = 0;      // times in a row below and over it
     int wait_ = 0, patience_ = 32;  // [times] until another may be found, and the next such wait

@@ -26,7 +26,7 @@ void Foresight::observe(const FrameSample& sample, const Amounts& amounts, const
     const Foreseen& foreseen = foreseen_[static_cast<std::size_t>(sample.frame) % foreseen_.size()];
     if (foreseen.amounts.terms == 0 || foreseen.frame != sample.frame || foreseen.decision != sample.decision) return;
     if (learn_factors(foreseen.amounts, amounts, model)) bias_ = heard_ = 0;
-    const double error = model.predict(amounts).log_ms - model.predict(corrected(foreseen.amounts)).log_ms;
+    const double error = model.log_ms(amounts) - model.log_ms(corrected(foreseen.amounts));
     heard_ = std::min(heard_ + 1, memory);
     bias_ += std::clamp(error - bias_, -most_surprise, most_surprise) / heard_;
     bias_ = std::clamp(bias_, -most_bias, most_bias);
@@ -35,7 +35,7 @@ void Foresight::observe(const FrameSample& sample, const Amounts& amounts, const
 // Returns whether one has changed. What a kind takes is reckoned at a price that is a sigma up, as prices are learned
 // while forecasts are off.
 bool Foresight::learn_factors(const Amounts& foreseen, const Amounts& drawn, const CostModel& model) {
-    const double total_ms = std::exp(model.predict(drawn).log_ms);
+    const double total_ms = std::exp(model.log_ms(drawn));
     bool has_changed = false;
     for (int i = 1; i < drawn.terms; ++i) {
         const double most_ms = model.gain() * (model.price(i) + model.price_uncertainty(i));

@@ -43,8 +43,8 @@ constexpr int many_over = 6;          // [frames] over it in a row that are no c
 
 void Refresh::observe(CostModel& model, const Amounts& amounts, const Time& time, double target_ms) {
     const double ms = time.ms;
-    const bool is_known = evidence_ == Evidence::any && model.is_ready() && last_.terms > 0;
-    const double log_step = is_known ? model.predict(amounts).log_ms - model.predict(last_).log_ms : 0;
+    const bool is_known = evidence_ == Evidence::any && model.is_ready() && last_.terms > 0 && amounts != last_;
+    const double log_step = is_known ? model.log_ms(amounts) - model.log_ms(last_) : 0;
     last_ = amounts;
     const bool was_waiting = is_waiting();
     floor_.observe(ms, log_step, target_ms);
@@ -67,7 +67,7 @@ void Refresh::hear_rounded(CostModel& model, const Amounts& amounts, double ms) 
     const double period_ms = floor_.period_ms();
     const double upper_ms = std::max(floor_.ms(), std::round(ms / period_ms) * period_ms);
     const double lower_ms = floor_.is_at(ms) ? 0 : upper_ms - period_ms;
-    const double predicted_ms = std::exp(model.predict(amounts).log_ms);
+    const double predicted_ms = std::exp(model.log_ms(amounts));
     const bool is_late = predicted_ms <= slack * lower_ms;
     late_ = is_late ? late_ + 1 : 0;
     if (late_ >= many_late) {
@@ -105,7 +105,7 @@ void Refresh::seek(CostModel& model, double predicted_ms, bool is_late) {
 
 // Well above the floor times are what the work took. Near it only the longer ones are seen, so they would mislead.
 void Refresh::hear_capped(CostModel& model, const Amounts& amounts, double ms) {
-    const double predicted_ms = std::exp(model.predict(amounts).log_ms);
+    const double predicted_ms = std::exp(model.log_ms(amounts));
     const bool is_over = !floor_.is_at(ms);
     const bool is_near = predicted_ms <= slack * floor_.ms();
     late_ = is_over ? late_ + 1 : 0;
