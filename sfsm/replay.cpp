@@ -28,24 +28,25 @@ std::vector<Replayed> replay(Controller& law, std::span<const TraceRow> rows, in
 }
 
 std::vector<Replayed> replay(Controller& law, const RunRows& rows, int delay) {
-    assert(delay >= 0 && delay <= max_delay);
+    Replaying replaying(law, delay);
     std::vector<Replayed> replayed;
     replayed.reserve(rows.count);
-    std::size_t arrived = 0;
-    for (std::size_t i = 0; i < rows.count; ++i) {
-        const std::int64_t frame = rows.at(i).frame;
-        for (; arrived < i; ++arrived) {
-            const TraceRow& past = rows.at(arrived);
-            if (past.frame >= frame - delay) break;
-            if (std::isnan(past.frame_ms)) continue;
-            law.observe({past.frame, past.frame_ms, replayed[arrived].decision, past.work});
-        }
-        const TraceRow& row = rows.at(i);
-        const Forecast forecast = row.forecast();
-        const Decision decision = law.decide({row.target_ms, row.range, row.has_forecast() ? &forecast : nullptr});
-        replayed.push_back({decision, law.status().predicted_ms});
-    }
+    for (std::size_t i = 0; i < rows.count; ++i) replayed.push_back(replaying.next(rows.at(i)));
     return replayed;
+}
+
+Replaying::Replaying(Controller& law, int delay) : law_(law), delay_(delay) {
+    assert(delay >= 0 && delay <= max_delay);
+}
+
+Replayed Replaying::next(const TraceRow& row) {
+    for (; !under_way_.empty() && under_way_.front().frame < row.frame - delay_; under_way_.pop_front()) {
+        if (!std::isnan(under_way_.front().ms)) law_.observe(under_way_.front());
+    }
+    const Forecast forecast = row.forecast();
+    const Decision decision = law_.decide({row.target_ms, row.range, row.has_forecast() ? &forecast : nullptr});
+    under_way_.push_back({row.frame, row.frame_ms, decision, row.work});
+    return {decision, law_.status().predicted_ms};
 }
 
 int trace_delay(const Trace& trace) {

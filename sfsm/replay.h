@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <optional>
 #include <span>
@@ -22,6 +23,21 @@ struct Replayed {
     double predicted_ms = 0;  // Status's
 };
 
+// A recorded run fed through a law frame by frame. Before it decides frame k, it has observed the times of the frames
+// up to k - 1 - delay; `delay` in [0, max_delay]. Open loop: each recorded time is taken for the time of the law's own
+// decision. A row without a time is not observed.
+class Replaying {
+public:
+    Replaying(Controller& law, int delay);  // the law must outlive it
+
+    Replayed next(const TraceRow& row);
+
+private:
+    Controller& law_;
+    int delay_;
+    std::deque<FrameSample> under_way_;  // that have not arrived; NaN ms: never measured
+};
+
 // The rows of a run, be they kept or made as they are asked for: a row is what it is until another one is asked for.
 struct RunRows {
     std::size_t count = 0;
@@ -29,9 +45,7 @@ struct RunRows {
 };
 RunRows run_rows(std::span<const TraceRow> rows);  // which must outlive them
 
-// What `law` decides at the rows' targets and ranges; one element a row. Before it decides frame k, it has observed the
-// times of the frames up to k - 1 - delay; `delay` in [0, max_delay]. Open loop: each recorded time is taken for the
-// time of the law's own decision. A row without a time is not observed.
+// What `law` decides at the rows' targets and ranges; one element a row.
 std::vector<Replayed> replay(Controller& law, const RunRows& rows, int delay);
 std::vector<Replayed> replay(Controller& law, std::span<const TraceRow> rows, int delay);
 

@@ -15,10 +15,12 @@ bool is_measured(const FrameTime& frame) {
     return std::isfinite(frame.frame_ms) && std::isfinite(frame.target_ms) && frame.target_ms > 0;
 }
 
-// The smallest time that at least `percent` of the times do not exceed.
-double nearest_rank(std::span<const double> sorted, std::size_t percent) {
-    const std::size_t rank = (sorted.size() * percent + 99) / 100;
-    return sorted[std::max<std::size_t>(rank, 1) - 1];
+// The smallest time that at least `percent` of the times do not exceed. Moves them about.
+double nearest_rank(std::vector<double>& times, std::size_t percent) {
+    const std::size_t rank = (times.size() * percent + 99) / 100;
+    const auto place = times.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(rank, 1) - 1);
+    std::nth_element(times.begin(), place, times.end());
+    return *place;
 }
 
 // Sums over frames; finish() makes shares of them.
@@ -105,6 +107,7 @@ Summary summarize(std::span<const TraceRow> rows) {
 Summary summarize_times(std::span<const FrameTime> frames) {
     Summary summary;
     std::vector<double> times;
+    times.reserve(frames.size());
     for (const FrameTime& frame : frames) {
         if (!is_measured(frame)) continue;
         times.push_back(frame.frame_ms);
@@ -119,7 +122,6 @@ Summary summarize_times(std::span<const FrameTime> frames) {
          {&summary.mean_ms, &summary.control_rate, &summary.within_5pct, &summary.within_10pct, &summary.over_5pct}) {
         *mean /= measured;
     }
-    std::sort(times.begin(), times.end());
     summary.frames = static_cast<std::int64_t>(times.size());
     summary.p50_ms = nearest_rank(times, 50);
     summary.p99_ms = nearest_rank(times, 99);
