@@ -48,22 +48,27 @@ std::string chosen_note(const sfsm::Recording& recording) {
            "; --process takes another of: " + others;
 }
 
-sfsm::Recording read(const std::string& path, const sfsm::RecordingOptions& options) {
+sfsm::Recording read(const std::string& path, const sfsm::RecordingOptions& options,
+                     const sfsm::HearFrames& hear = {}) {
     errno = 0;
     std::ifstream file;
     if (path != "-") file.open(path, std::ios::binary);
     if (path != "-" && !file)
         throw std::runtime_error("cannot read " + path + ": " + std::strerror(errno) + ", expected a recording");
-    sfsm::Recording recording = sfsm::read_recording(path == "-" ? std::cin : file, path, options);
+    sfsm::Recording recording = sfsm::read_recording(path == "-" ? std::cin : file, path, options, hear);
     if (recording.streams.size() > 1) recording.notes.push_back(chosen_note(recording));
     for (const std::string& note : recording.notes) say(path + ": " + note);
     return recording;
 }
 
+sfsm::TargetSchedule targets_for(const std::string& asked) {
+    return sfsm::TargetSchedule::parse(asked.empty() ? sfsm::default_target : std::string_view(asked));
+}
+
 void set_targets(Session& session, const std::string& asked) {
     session.has_targets = !asked.empty() || session.recording.has_work() || !session.laws.empty();
     if (!session.has_targets) return;
-    session.targets = sfsm::TargetSchedule::parse(asked.empty() ? sfsm::default_target : std::string_view(asked));
+    session.targets = targets_for(asked);
     for (sfsm::TraceRow& row : session.recording.trace.rows) {
         if (!asked.empty() || !(std::isfinite(row.target_ms) && row.target_ms > 0))
             row.target_ms = session.targets.at(row.frame);
@@ -77,24 +82,41 @@ sim::Scenario scenario_of(const Session& session) {
     return sim::recorded_scenario(session.recording.trace.rows, {session.delay, true, session.drawing});
 }
 
-// Those asked for; for an open loop else the trace's, or of a recording that has none the default.
-std::vector<sim::Contestant> laws_for(const ReplayOptions& options, const sfsm::Recording& recording) {
+// Those asked for; for an open loop else the default.
+std::vector<sim::Contestant> laws_for(const ReplayOptions& options) {
     if (options.laws.empty() && !options.open_loop) return {};
-    const bool is_told = recording.has_work() && recording.trace.settings.contains("law");
-    if (options.laws.empty() && is_told) return {law_of(recording.trace, false)};
     std::vector<sim::Contestant> laws =
         chosen_laws("--law", options.laws.empty() ? std::string(sfsm::law_names().front()) : options.laws);
     if (options.open_loop) std::erase_if(laws, needs_course);
     return laws;
 }
 
+// Those asked for; for an open loop else the trace's.
+std::vector<sim::Contestant> laws_for(const ReplayOptions& options, const sfsm::Recording& recording) {
+    const bool is_told = recording.has_work() && recording.trace.settings.contains("law");
+    if (options.laws.empty() && options.open_loop && is_told) return {law_of(recording.trace, false)};
+    return laws_for(options);
+}
+
+std::unique_ptr<EarlyRun> begin_early(const ReplayOptions& options) {
+    const std::vector<sim::Contestant> laws = laws_for(options);
+    if (laws.empty() || !options.open_loop) return nullptr;
+    return std::make_unique<EarlyRun>(laws.front(), targets_for(options.target_ms), options.delay.value_or(gpu_delay));
+}
+
 }  // namespace
 
 Session open_session(const ReplayOptions& options, const std::string& path) {
     Session session;
+    session.early = begin_early(options);
+    sfsm::HearFrames hear;
+    if (session.early) {
+        hear = [&early = *session.early](std::span<const sfsm::FrameRecord> frames) { early.add(frames); };
+    }
     session.recording =
-        read(path, {options.process, options.swap_chain, options.column, sfsm::unit_named(options.unit)});
+        read(path, {options.process, options.swap_chain, options.column, sfsm::unit_named(options.unit)}, hear);
     const bool has_work = session.recording.has_work();
+    if (session.early && (has_work || !session.early->end_with(session.recording.frames))) session.early.reset();
     session.delay = options.delay.value_or(has_work ? sfsm::trace_delay(session.recording.trace) : gpu_delay);
     if (has_work) session.drawing = sfsm::trace_drawing(session.recording.trace);
     session.laws = laws_for(options, session.recording);
@@ -149,6 +171,8 @@ Rerun recorded_run(const Session& session) {
 }
 
 Rerun rerun(const Session& session, const sim::Contestant& law) {
+    if (session.early && session.early->has_result() && session.early->law() == law.name)
+        return session.early->result();
     return session.course ? rerun_closed(law, *session.course)
                           : rerun_open(law, rows_of(session), session.delay, session.drawing);
 }

@@ -1,6 +1,7 @@
 // A recording that was read; where laws are asked for with its targets set, and as a course where the loop is closed.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <ostream>
 #include <stdexcept>
@@ -8,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/early_run.h"
 #include "apps/replay_options.h"
 #include "apps/rerun.h"
 #include "sfsm/recordings/recording.h"
@@ -25,6 +27,7 @@ struct Session {
     sfsm::Drawing drawing = sfsm::Drawing::opengl;
     std::vector<sfsm::simulate::Contestant> laws;  // asked for
     std::optional<sfsm::simulate::Course> course;  // closed loop
+    std::unique_ptr<EarlyRun> early;               // open loop: of the first law, while the recording was read
 };
 
 // The recording at `path`. Says on stderr what the reader had to say, and adds to its notes which of several streams
@@ -54,7 +57,7 @@ auto made_of(const std::string& path, const Make& make) {
 // must outlive them and stay where it is.
 sfsm::RunRows rows_of(const Session& session);
 
-// The recorded run as it was, beside which the laws' are shown.
+// The recorded run as it was, beside which the laws' are shown, and a law's; a law's of session.early once.
 Rerun recorded_run(const Session& session);
 Rerun rerun(const Session& session, const sfsm::simulate::Contestant& law);
 

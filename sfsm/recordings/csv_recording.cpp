@@ -19,6 +19,7 @@ namespace sfsm {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t heard_at_once = 4096;          // frames
 constexpr std::size_t longest_preamble = 200;        // lines
 constexpr std::size_t longest_preamble_line = 4096;  // what is kept of it [bytes]
 
@@ -49,7 +50,8 @@ bool begins_mangohud(std::string_view line) {
 
 class CsvReader {
 public:
-    CsvReader(LineReader& lines, ColumnWish wish) : lines_(lines), wish_(std::move(wish)) {}
+    CsvReader(LineReader& lines, ColumnWish wish, const HearFrames& hear)
+        : lines_(lines), wish_(std::move(wish)), hear_(hear) {}
 
     Collected read();
 
@@ -88,6 +90,7 @@ private:
 
     LineReader& lines_;
     ColumnWish wish_;
+    const HearFrames& hear_;
     std::vector<std::string> preamble_;  // lines before the header
     std::int64_t suspect_ = 0;           // number of the first of them that is no comment, else of the first
     std::string suspect_text_;
@@ -343,6 +346,8 @@ void CsvReader::take_present(double told_ms) {
         stream.display.add(display, told, {header_->has(Column::displayed_time), has_simulation_start_}));
     if (told.fate == FrameRecord::Fate::dropped) told.animation_error_ms = FrameRecord().animation_error_ms;
     add_frame(stream, usable_frame(told, stream, lines_.number()), present());
+    if (hear_ && &stream == &table_.streams().front() && stream.frames.size() % heard_at_once == 0)
+        hear_(std::span(stream.frames).last(heard_at_once));
 }
 
 bool CsvReader::has_simulation_start() const {
@@ -517,8 +522,8 @@ std::string cut_line_note(const LineReader& lines) {
     return "line " + std::to_string(lines.number()) + ", the last, is cut short: left out";
 }
 
-Collected read_csv_recording(LineReader& lines, const ColumnWish& wish) {
-    return CsvReader(lines, wish).read();
+Collected read_csv_recording(LineReader& lines, const ColumnWish& wish, const HearFrames& hear) {
+    return CsvReader(lines, wish, hear).read();
 }
 
 }  // namespace sfsm

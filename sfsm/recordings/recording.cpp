@@ -164,7 +164,8 @@ Recording to_recording(Collected collected, const std::string& name, const Recor
 
 }  // namespace
 
-Recording read_recording(std::istream& in, const std::string& name, const RecordingOptions& options) {
+Recording read_recording(std::istream& in, const std::string& name, const RecordingOptions& options,
+                         const HearFrames& hear) {
     TextSource source(in, name);
     LineReader lines(source.stream(), name);
     refuse_binary(lines);
@@ -173,9 +174,10 @@ Recording read_recording(std::istream& in, const std::string& name, const Record
         recording = our_recording(lines);
         recording.chosen = choose(recording, name, options);
     } else {
-        recording = to_recording(is_json(lines.head()) ? read_capframex_json(lines)
-                                                       : read_csv_recording(lines, {options.column, options.unit}),
-                                 name, options);
+        recording =
+            to_recording(is_json(lines.head()) ? read_capframex_json(lines)
+                                               : read_csv_recording(lines, {options.column, options.unit}, hear),
+                         name, options);
     }
     recording.notes.insert(recording.notes.end(), source.notes().begin(), source.notes().end());
     return recording;

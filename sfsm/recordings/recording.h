@@ -5,8 +5,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <iosfwd>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -56,9 +58,15 @@ struct RecordingOptions {
     std::optional<Unit> unit = {};
 };
 
+// Told of the frames of the file's first stream while it is read, some thousand at a time, where they are known as soon
+// as their rows are. The last aren't told, or none: who hears them must compare them with Recording::frames, as another
+// stream may be chosen. Of a frame only the times are meant.
+using HearFrames = std::function<void(std::span<const FrameRecord>)>;
+
 // The file may be packed by gzip, and be UTF-16. Reads in pieces: memory grows with the frames, not with the bytes.
 // Columns are found by name. Throws std::runtime_error: one line with `name`, the line number, what was found and what
 // was expected.
-Recording read_recording(std::istream& in, const std::string& name, const RecordingOptions& options = {});
+Recording read_recording(std::istream& in, const std::string& name, const RecordingOptions& options = {},
+                         const HearFrames& hear = {});
 
 }  // namespace sfsm

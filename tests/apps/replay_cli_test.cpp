@@ -350,6 +350,34 @@ TEST_F(ReplayProgram, NamesTheTraceWhoseLawIsNone) {
     }
 }
 
+// The first law runs while the file is still being read, on what is its first stream; the others after that.
+TEST_F(ReplayProgram, ALawDecidesTheSameWhileTheFileIsRead) {
+    const auto stream = [](std::ostream& out, const std::string& id, int from, int to) {
+        for (int i = from; i < to; ++i)
+            out << "game.exe," << id << ",0x" << id << ',' << 0.016 * i << ',' << 12 + i % 7 + (i % 1000 > 600 ? 9 : 0)
+                << ",0\n";
+    };
+    const auto expect_the_same = [&](const std::string& name, const auto& write) {
+        std::ofstream file(in_folder(name));
+        file << "Application,ProcessID,SwapChainAddress,TimeInSeconds,MsBetweenPresents,Dropped\n";
+        write(file);
+        file.close();
+        const auto run_of = [&](const std::string& laws, std::size_t place) {
+            const Outcome outcome = replay(in_folder(name) + " --open-loop --law " + laws + " --json -");
+            EXPECT_EQ(outcome.code, 0) << outcome.err;
+            return json::parse(outcome.out).at("runs").at(place).dump();
+        };
+        EXPECT_EQ(run_of("predictive,paper", 0), run_of("paper,predictive", 1)) << name;
+        EXPECT_EQ(run_of("predictive,predictive", 0), run_of("predictive,predictive", 1)) << name;
+    };
+    expect_the_same("one.csv", [&](std::ostream& out) { stream(out, "1", 0, 9000); });
+    expect_the_same("short.csv", [&](std::ostream& out) { stream(out, "1", 0, 900); });
+    expect_the_same("second.csv", [&](std::ostream& out) {
+        stream(out, "1", 0, 5000);
+        stream(out, "2", 1000, 9000);
+    });
+}
+
 TEST_F(ReplayProgram, TheClairvoyantDecidesInClosedLoopsAlone) {
     const std::string trace = save(recorded());
     ASSERT_EQ(replay(trace + " --law oracle --csv " + in_folder("oracle.csv")).code, 0);

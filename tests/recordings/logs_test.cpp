@@ -256,6 +256,23 @@ TEST(Logs, MoreThanAFewUnreadableRowsAreRefused) {
     EXPECT_TRUE(contains(refusal(text(3, 3)), "r.csv:5: found 1 fields"));
 }
 
+// The frames of the first stream, be it the chosen one or not.
+TEST(Logs, FramesAreHeardWhileTheyAreRead) {
+    Table table = game(6000);
+    append(table, rows_of(9000, 7, 200), "b.exe", "12", "0x30");
+    for (std::size_t i = 0; i < table.rows.size(); ++i) table.rows[i][frame_time] = std::to_string(1 + i % 91);
+    std::vector<double> heard;
+    std::istringstream in(table.text());
+    const auto hear = [&](std::span<const FrameRecord> frames) {
+        for (const FrameRecord& frame : frames) heard.push_back(frame.frame_ms);
+    };
+    const Recording recording = read_recording(in, "r.csv", {"game.exe"}, hear);
+    ASSERT_EQ(recording.frames.size(), 6000u);
+    ASSERT_GT(heard.size(), 2000u);
+    ASSERT_LE(heard.size(), 6000u);
+    for (std::size_t i = 0; i < heard.size(); ++i) ASSERT_EQ(heard[i], recording.frames[i].frame_ms) << i;
+}
+
 TEST(Logs, AnEmptyTimeIsNone) {
     Table table = game();
     table.rows[0][frame_time] = table.rows[7][frame_time] = "";
