@@ -3,11 +3,13 @@
 const causes = ["start of the recorder", "shader compilation", "GPU", "CPU", "waiting", "not told"];
 const shortCauses = ["start", "shaders", "GPU", "CPU", "waiting", ""];
 
+const mostAtFirst = 8;  // as many as there are colours
+
 function decodeRecording({ name, frames, seconds, series, stutters }, index) {
   const read = (key) => decodeSeries(frames, series[key]);
   const time = read("frame_ms");
   return {
-    index, name, frames, time, shown: true,
+    index, name, frames, time, shown: index < mostAtFirst,
     display: read("display_ms"), animation: read("animation_error_ms"), cpu: read("cpu_ms"), gpu: read("gpu_ms"),
     starts: startsOf(time, seconds),
     stutters: new Uint32Array(bytesOf(stutters.frames).buffer), causes: bytesOf(stutters.causes),

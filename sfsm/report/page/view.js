@@ -237,7 +237,7 @@ function drawCross({ cross, x, y, bottom }, view, at, dots) {
 
 function makeLegend(id, runs, redraw) {
   for (const run of runs) {
-    const button = addHtml(byId(id), "button", "", { type: "button", "aria-pressed": "true", "data-run": run.index });
+    const button = addHtml(byId(id), "button", "", { type: "button", "aria-pressed": run.shown, "data-run": run.index });
     addChip(button, run);
     button.append(run.name);
     button.addEventListener("click", () => {
