@@ -199,11 +199,18 @@ void add_runs(sfsm::Report& report, const Reviewed& one, const std::vector<Rerun
                                            : std::string(sfsm::decision_words);
 }
 
+std::string title_of(const std::vector<Reviewed>& all) {
+    constexpr std::size_t most_named = 3;
+    if (all.size() > most_named) return std::to_string(all.size()) + " recordings";
+    std::string title = all.front().name;
+    for (std::size_t i = 1; i < all.size(); ++i) title += (i + 1 == all.size() ? " and " : ", ") + all[i].name;
+    return title;
+}
+
 sfsm::Report report_of(const std::vector<Reviewed>& all, const std::vector<Rerun>& reruns,
                        std::vector<sfsm::Comparison> comparisons) {
     sfsm::Report report;
-    report.title = all.front().name;
-    for (std::size_t i = 1; i < all.size(); ++i) report.title += (i + 1 == all.size() ? " and " : ", ") + all[i].name;
+    report.title = title_of(all);
     for (const Reviewed& one : all) report.recordings.push_back(reported(one));
     report.comparisons = std::move(comparisons);
     add_runs(report, all.front(), reruns);

@@ -60,8 +60,8 @@ struct Figures {
     double mean_animation_error_ms = 0;  // of its size, where it is told; else NaN
 };
 
-// 120, 60 and 30 frames a second.
-inline constexpr std::array<double, 3> usual_limits_ms = {1000.0 / 120, 1000.0 / 60, 1000.0 / 30};
+// 120, 60 and 30 frames a second, as people write them: a game that is held at 60 is not over 16.7.
+inline constexpr std::array<double, 3> usual_limits_ms = {8.3, 16.7, 33.3};
 
 // Where no frame has a time: no seconds, no stutters, and rates, times and shares are NaN. O(n log n).
 Figures figures_of(std::span<const FrameRecord> frames, std::int64_t generated, std::span<const double> limits_ms);

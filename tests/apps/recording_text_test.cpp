@@ -71,7 +71,7 @@ TEST(FiguresJson, HasEachFigureUnderItsName) {
     EXPECT_EQ(json.at("displayed"), 200);
     EXPECT_EQ(json.at("bottleneck"), (Json{{"frames", 200}, {"gpu", 1.0}, {"cpu", 0.0}, {"neither", 0.0}}));
     ASSERT_EQ(json.at("over_ms").size(), 3u);
-    EXPECT_EQ(json.at("over_ms")[2], (Json{{"limit_ms", 1000.0 / 30}, {"frames", 2}, {"share", 0.01}}));
+    EXPECT_EQ(json.at("over_ms")[2], (Json{{"limit_ms", 33.3}, {"frames", 2}, {"share", 0.01}}));
 }
 
 TEST(FiguresJson, TellsStuttersByTheirCause) {
