@@ -80,12 +80,13 @@ std::string percent(double share) {
 }
 
 sfsm::ReportFrame report_frame(const RerunFrame& frame) {
-    sfsm::TraceRow row;
-    row.target_ms = frame.target_ms;
-    row.frame_ms = frame.frame_ms;
-    row.predicted_ms = frame.predicted_ms;
-    row.decision = frame.decision;
-    return sfsm::report_frame(row);
+    return {static_cast<float>(frame.target_ms),
+            static_cast<float>(frame.frame_ms),
+            static_cast<float>(frame.predicted_ms),
+            static_cast<float>(frame.decision.motion_distance),
+            static_cast<float>(frame.decision.splat_size),
+            frame.decision.state,
+            static_cast<float>(frame.decision.rate)};
 }
 
 }  // namespace
