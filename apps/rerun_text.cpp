@@ -80,12 +80,9 @@ std::string percent(double share) {
 }
 
 sfsm::ReportFrame report_frame(const RerunFrame& frame) {
-    return {static_cast<float>(frame.target_ms),
-            static_cast<float>(frame.frame_ms),
-            static_cast<float>(frame.predicted_ms),
-            static_cast<float>(frame.decision.motion_distance),
-            static_cast<float>(frame.decision.splat_size),
-            frame.decision.state,
+    return {static_cast<float>(frame.target_ms),           static_cast<float>(frame.frame_ms),
+            static_cast<float>(frame.predicted_ms),        static_cast<float>(frame.decision.motion_distance),
+            static_cast<float>(frame.decision.splat_size), frame.decision.state,
             static_cast<float>(frame.decision.rate)};
 }
 
@@ -131,11 +128,10 @@ void write_scores(std::ostream& out, std::span<const sfsm::ReportRun> runs) {
 }
 
 Json rerun_json(const Rerun& rerun) {
-    std::vector<sfsm::FrameTime> times;
-    times.reserve(rerun.frames.size());
-    for (const RerunFrame& frame : rerun.frames)
-        times.push_back({frame.target_ms, frame.frame_ms, frame.decision.state});
-    const sfsm::Summary summary = sfsm::summarize_times(times);
+    sfsm::Summing summing;
+    summing.expect(rerun.frames.size());
+    for (const RerunFrame& frame : rerun.frames) summing.add({frame.target_ms, frame.frame_ms, frame.decision.state});
+    const sfsm::Summary summary = summing.finish();
     Json json;
     json["law"] = rerun.law;
     json["frames"] = summary.frames;

@@ -105,27 +105,30 @@ Summary summarize(std::span<const TraceRow> rows) {
 }
 
 Summary summarize_times(std::span<const FrameTime> frames) {
-    Summary summary;
-    std::vector<double> times;
-    times.reserve(frames.size());
-    for (const FrameTime& frame : frames) {
-        if (!is_measured(frame)) continue;
-        times.push_back(frame.frame_ms);
-        add_frame(summary, frame.frame_ms, frame.target_ms);
-        summary.target_ms = frame.target_ms;
-        ++summary.state_frames[static_cast<std::size_t>(frame.state)];
-    }
-    if (times.empty()) return summary;
+    Summing summing;
+    summing.expect(frames.size());
+    for (const FrameTime& frame : frames) summing.add(frame);
+    return summing.finish();
+}
 
-    const auto measured = static_cast<double>(times.size());
-    for (double* mean :
-         {&summary.mean_ms, &summary.control_rate, &summary.within_5pct, &summary.within_10pct, &summary.over_5pct}) {
+void Summing::add(const FrameTime& frame) {
+    if (!is_measured(frame)) return;
+    times_.push_back(frame.frame_ms);
+    add_frame(sum_, frame.frame_ms, frame.target_ms);
+    sum_.target_ms = frame.target_ms;
+    ++sum_.state_frames[static_cast<std::size_t>(frame.state)];
+}
+
+Summary Summing::finish() {
+    if (times_.empty()) return sum_;
+    const auto measured = static_cast<double>(times_.size());
+    for (double* mean : {&sum_.mean_ms, &sum_.control_rate, &sum_.within_5pct, &sum_.within_10pct, &sum_.over_5pct}) {
         *mean /= measured;
     }
-    summary.frames = static_cast<std::int64_t>(times.size());
-    summary.p50_ms = nearest_rank(times, 50);
-    summary.p99_ms = nearest_rank(times, 99);
-    return summary;
+    sum_.frames = static_cast<std::int64_t>(times_.size());
+    sum_.p50_ms = nearest_rank(times_, 50);
+    sum_.p99_ms = nearest_rank(times_, 99);
+    return sum_;
 }
 
 std::string summary_json(const Summary& summary, const Settings& settings, std::span<const std::string> warnings) {

@@ -14,10 +14,10 @@ ReportFrame report_frame(const TraceRow& row) {
 }
 
 std::vector<Score> time_scores(const std::vector<ReportFrame>& frames) {
-    std::vector<FrameTime> times;
-    times.reserve(frames.size());
-    for (const ReportFrame& frame : frames) times.push_back({frame.target_ms, frame.frame_ms, frame.state});
-    const Summary summary = summarize_times(times);
+    Summing summing;
+    summing.expect(frames.size());
+    for (const ReportFrame& frame : frames) summing.add({frame.target_ms, frame.frame_ms, frame.state});
+    const Summary summary = summing.finish();
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     const auto share = [&](double value) { return summary.frames > 0 ? 100 * value : none; };
     const auto time = [&](double value) { return summary.frames > 0 ? value : none; };
