@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <future>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -251,11 +252,14 @@ void review(const ReplayOptions& options) {
     const std::vector<Reviewed> all = read_all(options);
     const std::vector<sfsm::Comparison> comparisons = comparisons_of(all);
     const std::vector<Rerun> reruns = all.size() == 1 ? reruns_of(all.front()) : std::vector<Rerun>{};
-    const sfsm::Report report = report_of(all, reruns, comparisons);
+    // Of a million frames each takes its time, and there are two cores.
+    std::future<sfsm::Report> reported =
+        std::async(std::launch::async, [&] { return report_of(all, reruns, comparisons); });
     if (outputs.json) {
         outputs.json->stream() << json_of(all, reruns, comparisons).dump(2, ' ', false, Json::error_handler_t::replace)
                                << '\n';
     }
+    const sfsm::Report report = reported.get();
     if (outputs.csv) write_csv(outputs.csv->stream(), all, reruns);
     if (outputs.report) sfsm::write_report_html(outputs.report->stream(), report);
     if (outputs.svg) sfsm::write_report_svg(outputs.svg->stream(), report);
