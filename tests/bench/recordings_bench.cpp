@@ -53,6 +53,107 @@ std::string presentmon_rows(int rows, int streams) {
     return text;
 }
 
+// A million rows of 236 bytes, cached as it has just been written.
+class BigFile {
+public:
+    BigFile() : path_(folder_ / "big.csv") {
+        std::ofstream file(path_, std::ios::binary);
+        file << "Application,ProcessID,SwapChainAddress,PresentRuntime,SyncInterval,PresentFlags,AllowsTearing,"
+                "PresentMode,"
+                "FrameType,CPUStartTime,FrameTime,CPUBusy,CPUWait,GPULatency,GPUTime,GPUBusy,GPUWait,VideoBusy,"
+                "DisplayLatency,DisplayedTime,AnimationError,AnimationTime,MsFlipDelay,AllInputToPhotonLatency,"
+                "ClickToPhotonLatency\n";
+        for (int i = 0; i < million; ++i) {
+            file << "Cyberpunk2077.exe,24892,0x000002A70D2CAC00,DXGI,0,512,1,Hardware Composed: Independent "
+                    "Flip,Application,"
+                 << 1000000 + 16 * i << ".1250," << changing_ms(i, 1) << ',' << changing_ms(i, 2)
+                 << ",0.526900,1.173100,10.168500," << changing_ms(i, 3) << ",8.601800,0.0000,28.171800,"
+                 << changing_ms(i, 4) << ",0.8487," << 1000000 + 16 * i << ".5329,0.0000,NA,NA\n";
+        }
+        file.close();
+        size_ = static_cast<std::int64_t>(std::filesystem::file_size(path_));
+    }
+    const std::string& path() const { return path_; }
+    std::int64_t size() const { return size_; }
+
+private:
+    tests::Directory folder_;
+    std::string path_;
+    std::int64_t size_ = 0;
+};
+
+const BigFile& big_file() {
+    static const BigFile file;
+    return file;
+}
+
+void set_bytes(benchmark::State& state) {
+    state.counters["MB/s"] =
+        benchmark::Counter(static_cast<double>(big_file().size()) / 1e6, benchmark::Counter::kIsIterationInvariantRate);
+}
+
+// The program itself: its whole time, and the most memory that it had. The first of all, as a child begins with what
+// its parent had.
+void program(benchmark::State& state) {
+    const std::string path = big_file().path(), json = path + ".json", binary = GRANDSTAND_BIN "/replay";
+    const std::vector<std::string> words = {"replay", path, "--open-loop", "--json", json};
+    long peak_kb = 0;
+    for (auto _ : state) {
+        std::vector<char*> arguments;
+        for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+        arguments.push_back(nullptr);
+        posix_spawn_file_actions_t quiet;
+        posix_spawn_file_actions_init(&quiet);
+        posix_spawn_file_actions_addopen(&quiet, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+        pid_t child = 0;
+        int status = posix_spawn(&child, binary.c_str(), &quiet, nullptr, arguments.data(), environ);
+        posix_spawn_file_actions_destroy(&quiet);
+        rusage used{};
+        if (status != 0 || wait4(child, &status, 0, &used) != child || tests::code_of(status) != 0) {
+            state.SkipWithError(("cannot run " + binary).c_str());
+            break;
+        }
+        peak_kb = std::max(peak_kb, used.ru_maxrss);
+    }
+    set_bytes(state);
+    state.counters["peak_of_file"] = 1024.0 * static_cast<double>(peak_kb) / static_cast<double>(big_file().size());
+}
+BENCHMARK(program)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void plain_read(benchmark::State& state) {
+    const std::string& path = big_file().path();
+    std::vector<char> block(std::size_t{64} << 10);
+    for (auto _ : state) {
+        const int file = open(path.c_str(), O_RDONLY);
+        while (read(file, block.data(), block.size()) > 0) benchmark::DoNotOptimize(block.data());
+        close(file);
+    }
+    set_bytes(state);
+}
+BENCHMARK(plain_read)->Unit(benchmark::kMillisecond);
+
+// What the program does, without its second thread.
+void open_loop(benchmark::State& state) {
+    const std::string& path = big_file().path();
+    for (auto _ : state) {
+        std::ifstream in(path, std::ios::binary);
+        const Recording recording = read_recording(in, path);
+        TraceRow row;
+        row.target_ms = 16.6;
+        PredictiveLaw law;
+        Replaying replaying(law, 2);
+        std::vector<FrameTime> times;
+        for (const FrameRecord& frame : recording.frames) {
+            row.frame_ms = frame.frame_ms;
+            times.push_back({row.target_ms, frame.frame_ms, replaying.next(row).decision.state});
+            ++row.frame;
+        }
+        benchmark::DoNotOptimize(summary_json(summarize_times(times), {}, {}).data());
+    }
+    set_bytes(state);
+}
+BENCHMARK(open_loop)->Unit(benchmark::kMillisecond);
+
 // Rows of about 1.5 KB, most of it a forecast.
 std::string our_rows(int rows) {
     TraceRow row;
@@ -90,106 +191,6 @@ void our_trace(benchmark::State& state) {
     read_all(state, our_rows(million / 20), million / 20);
 }
 BENCHMARK(our_trace)->Unit(benchmark::kMillisecond);
-
-// A million rows of 238 bytes, cached as it has just been written.
-class BigFile {
-public:
-    BigFile() : path_(folder_ / "big.csv") {
-        std::ofstream file(path_, std::ios::binary);
-        file << "Application,ProcessID,SwapChainAddress,PresentRuntime,SyncInterval,PresentFlags,AllowsTearing,"
-                "PresentMode,"
-                "FrameType,CPUStartTime,FrameTime,CPUBusy,CPUWait,GPULatency,GPUTime,GPUBusy,GPUWait,VideoBusy,"
-                "DisplayLatency,DisplayedTime,AnimationError,AnimationTime,MsFlipDelay,AllInputToPhotonLatency,"
-                "ClickToPhotonLatency\n";
-        for (int i = 0; i < million; ++i) {
-            file << "Cyberpunk2077.exe,24892,0x000002A70D2CAC00,DXGI,0,512,1,Hardware Composed: Independent "
-                    "Flip,Application,"
-                 << 1000000 + 16 * i << ".1250," << changing_ms(i, 1) << ',' << changing_ms(i, 2)
-                 << ",0.526900,1.173100,10.168500," << changing_ms(i, 3) << ",8.601800,0.0000,28.171800,"
-                 << changing_ms(i, 4) << ",0.8487," << 1000000 + 16 * i << ".5329,0.0000,NA,NA\n";
-        }
-        file.close();
-        size_ = static_cast<std::int64_t>(std::filesystem::file_size(path_));
-    }
-    const std::string& path() const { return path_; }
-    std::int64_t size() const { return size_; }
-
-private:
-    tests::Directory folder_;
-    std::string path_;
-    std::int64_t size_ = 0;
-};
-
-const BigFile& big_file() {
-    static const BigFile file;
-    return file;
-}
-
-void set_bytes(benchmark::State& state) {
-    state.SetBytesProcessed(state.iterations() * big_file().size());
-    state.counters["bytes_a_row"] = static_cast<double>(big_file().size()) / million;
-}
-
-void plain_read(benchmark::State& state) {
-    const std::string& path = big_file().path();
-    std::vector<char> block(std::size_t{64} << 10);
-    for (auto _ : state) {
-        const int file = open(path.c_str(), O_RDONLY);
-        while (read(file, block.data(), block.size()) > 0) benchmark::DoNotOptimize(block.data());
-        close(file);
-    }
-    set_bytes(state);
-}
-BENCHMARK(plain_read)->Unit(benchmark::kMillisecond);
-
-// What the program does, without its second thread.
-void open_loop(benchmark::State& state) {
-    const std::string& path = big_file().path();
-    for (auto _ : state) {
-        std::ifstream in(path, std::ios::binary);
-        const Recording recording = read_recording(in, path);
-        TraceRow row;
-        row.target_ms = 16.6;
-        PredictiveLaw law;
-        Replaying replaying(law, 2);
-        std::vector<FrameTime> times;
-        for (const FrameRecord& frame : recording.frames) {
-            row.frame_ms = frame.frame_ms;
-            times.push_back({row.target_ms, frame.frame_ms, replaying.next(row).decision.state});
-            ++row.frame;
-        }
-        benchmark::DoNotOptimize(summary_json(summarize_times(times), {}, {}).data());
-    }
-    set_bytes(state);
-}
-BENCHMARK(open_loop)->Unit(benchmark::kMillisecond);
-
-// The program itself: its whole time, and the most memory that it had.
-void program(benchmark::State& state) {
-    const std::string path = big_file().path(), json = path + ".json", binary = GRANDSTAND_BIN "/replay";
-    const std::vector<std::string> words = {"replay", path, "--open-loop", "--json", json};
-    long peak_kb = 0;
-    for (auto _ : state) {
-        std::vector<char*> arguments;
-        for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-        arguments.push_back(nullptr);
-        posix_spawn_file_actions_t quiet;
-        posix_spawn_file_actions_init(&quiet);
-        posix_spawn_file_actions_addopen(&quiet, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-        pid_t child = 0;
-        int status = posix_spawn(&child, binary.c_str(), &quiet, nullptr, arguments.data(), environ);
-        posix_spawn_file_actions_destroy(&quiet);
-        rusage used{};
-        if (status != 0 || wait4(child, &status, 0, &used) != child || tests::code_of(status) != 0) {
-            state.SkipWithError(("cannot run " + binary).c_str());
-            break;
-        }
-        peak_kb = std::max(peak_kb, used.ru_maxrss);
-    }
-    set_bytes(state);
-    state.counters["peak_of_file"] = 1024.0 * static_cast<double>(peak_kb) / static_cast<double>(big_file().size());
-}
-BENCHMARK(program)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace
 }  // namespace sfsm
