@@ -1,27 +1,18 @@
 // The report as a reader has it: in a headless browser, opened as a file, with a mouse, fingers and keys.
 #include <gtest/gtest.h>
 
-#include <fstream>
-
-#include "tests/report/in_browser.h"
+#include "tests/report/report_page.h"
 #include "tests/report/sample.h"
 
 namespace {
 
 using nlohmann::json;
 
-class ReportInBrowser : public tests::InBrowser {
+class ReportInBrowser : public tests::ReportPage {
 protected:
     void SetUp() override {
         InBrowser::SetUp();
         if (!IsSkipped()) open(report_);
-    }
-
-    void load(const sfsm::Report& report) {
-        std::ofstream file(folder_ / "a report.html", std::ios::binary);
-        sfsm::write_report_html(file, report);
-        file.close();
-        browser_->open("file://" + (folder_ / "a%20report.html"));
     }
 
     void open(const sfsm::Report& report) {
@@ -29,53 +20,9 @@ protected:
         wait_for("return document.querySelectorAll('#percentiles path.curve').length > 0");
     }
 
-    // Where a frame is in a chart, in the middle of its height [px of the window].
-    json place(const std::string& chart, double frame) const {
-        const std::string found =
-            value("const svg = document.querySelector('#" + chart +
-                  " > svg'); svg.scrollIntoView({ block: 'center' });"
-                  "const clip = svg.querySelector('clipPath rect').getBBox();"
-                  "const box = svg.getBoundingClientRect(), scale = box.width / svg.viewBox.baseVal.width;"
-                  "const from = Number(svg.dataset.from), to = Number(svg.dataset.to);"
-                  "const x = clip.x + (" +
-                  std::to_string(frame) +
-                  " - from) / (to - from) * clip.width;"
-                  "return JSON.stringify({ x: Math.round(box.left + x * scale), y: Math.round(box.top + "
-                  "box.height / 2) })")
-                .get<std::string>();
-        return json::parse(found);
-    }
-
-    static json move(const json& place, int ms = 0) {
-        return {
-            {"type", "pointerMove"}, {"duration", ms}, {"origin", "viewport"}, {"x", place["x"]}, {"y", place["y"]}};
-    }
-    static json down() { return {{"type", "pointerDown"}, {"button", 0}}; }
-    static json up() { return {{"type", "pointerUp"}, {"button", 0}}; }
-
-    void wheel(const json& place, int delta) const {
-        browser_->act("wheel", json::array({{{"type", "scroll"},
-                                             {"origin", "viewport"},
-                                             {"x", place["x"]},
-                                             {"y", place["y"]},
-                                             {"deltaX", 0},
-                                             {"deltaY", delta}}}));
-    }
-
-    void press(const std::string& chart, const std::string& key) const {
-        value("document.querySelector('#" + chart + " > svg').focus({ preventScroll: true })");
-        browser_->act("key", json::array({{{"type", "keyDown"}, {"value", key}}, {{"type", "keyUp"}, {"value", key}}}));
-    }
-
     // Frames in view.
     double span() const {
         return value("const { from, to } = document.querySelector('#frame-chart > svg').dataset; return to - from");
-    }
-
-    // Of the read-out; empty where there is none.
-    std::string told(std::size_t run, const std::string& key) const {
-        return value("return document.querySelector('#readout tr[data-run=\"" + std::to_string(run) +
-                     "\"] [data-key=" + key + "]')?.textContent ?? ''");
     }
 
     // As near as it is written.
@@ -177,13 +124,13 @@ TEST_F(ReportInBrowser, HoveringReadsOutTheFrame) {
     for (const char* chart : {"frame-chart", "distance-chart", "splat-chart"}) {
         for (const int frame : {3, 30, 150, 170, 333}) {
             SCOPED_TRACE(std::string(chart) + ", frame " + std::to_string(frame));
-            browser_->act("pointer", json::array({move(place(chart, frame))}));
+            hover(place(chart, frame));
             wait_for("return document.querySelector('#readout').dataset.frame == " + std::to_string(frame));
             expect_read_out(static_cast<std::size_t>(frame));
             EXPECT_EQ(value("return document.querySelectorAll('path.cross').length"), 3) << "through all charts";
         }
     }
-    browser_->act("pointer", json::array({move({{"x", 3}, {"y", 3}})}));
+    hover({{"x", 3}, {"y", 3}});
     wait_for("return document.querySelector('#readout').hidden");
 }
 
@@ -205,8 +152,7 @@ TEST_F(ReportInBrowser, WheelZoomsAllChartsAroundThePointer) {
 }
 
 TEST_F(ReportInBrowser, DraggingPicksARange) {
-    const json from = place("frame-chart", 100), to = place("frame-chart", 200);
-    browser_->act("pointer", json::array({move(from), down(), move(to, 50), up()}));
+    drag(place("frame-chart", 100), place("frame-chart", 200));
     wait_for("const { from, to } = document.querySelector('#frame-chart > svg').dataset; return to - from < 110");
     constexpr double nearly = 2;
     EXPECT_NEAR(span(), 100, nearly);
@@ -216,18 +162,11 @@ TEST_F(ReportInBrowser, DraggingPicksARange) {
 }
 
 TEST_F(ReportInBrowser, FingersZoomAndMove) {
-    const auto finger = [&](const char* name, double begin, double end) {
-        return json{{"type", "pointer"},
-                    {"id", name},
-                    {"parameters", {{"pointerType", "touch"}}},
-                    {"actions", json::array({move(place("frame-chart", begin)), down(),
-                                             move(place("frame-chart", end), 100), up()})}};
-    };
-    browser_->act(json::array({finger("one", 180, 100), finger("two", 220, 300)}));
+    browser_->act(json::array({finger("one", "frame-chart", 180, 100), finger("two", "frame-chart", 220, 300)}));
     wait_for("const { from, to } = document.querySelector('#frame-chart > svg').dataset; return to - from < 200");
     const double from = value("return Number(document.querySelector('#frame-chart > svg').dataset.from)");
     const double middle = from + span() / 2;
-    browser_->act(json::array({finger("one", middle, middle - span() / 4)}));
+    browser_->act(json::array({finger("one", "frame-chart", middle, middle - span() / 4)}));
     wait_for("return Number(document.querySelector('#frame-chart > svg').dataset.from) > " + std::to_string(from + 5));
     wait_for("return !document.querySelector('#readout').hidden");
 }
@@ -235,19 +174,13 @@ TEST_F(ReportInBrowser, FingersZoomAndMove) {
 TEST_F(ReportInBrowser, KeysZoomMoveAndStep) {
     press("frame-chart", "+");
     wait_for("const { from, to } = document.querySelector('#frame-chart > svg').dataset; return to - from < 300");
-    const std::string right = "\uE014", shift = "\uE008";
+    const std::string right = "\uE014";
     const double from = value("return Number(document.querySelector('#frame-chart > svg').dataset.from)");
     press("frame-chart", right);
     wait_for("return Number(document.querySelector('#frame-chart > svg').dataset.from) > " + std::to_string(from));
     press("splat-chart", "0");
     wait_for("const { from, to } = document.querySelector('#frame-chart > svg').dataset; return to - from == 400");
-    const json key = {{"type", "keyDown"}, {"value", right}}, release = {{"type", "keyUp"}, {"value", right}};
-    browser_->act("key", json::array({{{"type", "keyDown"}, {"value", shift}},
-                                      key,
-                                      release,
-                                      key,
-                                      release,
-                                      {{"type", "keyUp"}, {"value", shift}}}));
+    step("frame-chart", right, 2);
     wait_for("return !document.querySelector('#readout').hidden");
     const std::string frame = value("return document.querySelector('#readout').dataset.frame");
     EXPECT_EQ(frame, "201") << "one on from the middle, which the first step shows";
@@ -260,7 +193,7 @@ TEST_F(ReportInBrowser, LegendHidesARun) {
     wait_for("return document.querySelectorAll('#frame-chart path.measured').length == 1");
     EXPECT_EQ(value("return document.querySelectorAll('#splat-chart path.detail').length"), 1);
     EXPECT_EQ(value("return document.querySelector('#legend [data-run=\"0\"]').ariaPressed"), "false");
-    browser_->act("pointer", json::array({move(place("frame-chart", 50))}));
+    hover(place("frame-chart", 50));
     wait_for("return document.querySelector('#readout').dataset.frame == 50");
     EXPECT_EQ(told(0, "time"), "");
     EXPECT_NE(told(1, "time"), "");
@@ -285,10 +218,6 @@ TEST_F(ReportInBrowser, ScaleShowsTheSpike) {
 
 TEST_F(ReportInBrowser, DarkSchemeAndPaperDiffer) {
     const std::string ground = "return getComputedStyle(document.body).backgroundColor";
-    const auto emulate = [&](const std::string& media, const std::string& scheme) {
-        const json features = json::array({{{"name", "prefers-color-scheme"}, {"value", scheme}}});
-        browser_->command("Emulation.setEmulatedMedia", {{"media", media}, {"features", features}});
-    };
     emulate("", "light");
     const json light = value(ground);
     emulate("", "dark");
@@ -307,17 +236,14 @@ TEST_F(ReportInBrowser, DarkSchemeAndPaperDiffer) {
 }
 
 TEST_F(ReportInBrowser, FitsAPhone) {
-    browser_->command("Emulation.setDeviceMetricsOverride",
-                      {{"width", 360}, {"height", 740}, {"deviceScaleFactor", 2}, {"mobile", true}});
+    emulate_phone(360);
     wait_for("return document.querySelector('#frame-chart > svg').viewBox.baseVal.width < 360");
-    EXPECT_LE(value("return document.documentElement.scrollWidth"), 360) << value(
-        "return [...document.querySelectorAll('body *')].filter((part) => part.getBoundingClientRect().right > 360)"
-        ".map((part) => part.outerHTML.slice(0, 80))");
+    expect_narrow(360);
 }
 
 TEST_F(ReportInBrowser, WithoutScriptsThereIsThePicture) {
     browser_->command("Emulation.setScriptExecutionDisabled", {{"value", true}});
-    browser_->open("file://" + (folder_ / "a%20report.html"));
+    browser_->open(address());
     const json found = browser_->command("DOM.getDocument", {{"depth", 1}});
     const json picture = browser_->command(
         "DOM.querySelector", {{"nodeId", found["root"]["nodeId"]}, {"selector", "noscript svg[role=img] path"}});
