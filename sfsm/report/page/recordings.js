@@ -222,15 +222,21 @@ function startRecordings() {
     return steps.subarray(0, count).sort();
   }
 
+  // What most frames take, however long some are.
+  function usualSeconds() {
+    const samples = recordings.map((run) => sampleInView(run.time, byNumber, { low: 0, high: run.frames }));
+    return ranked(sortedSample(samples), 0.5) / 1000 || seconds / frameCount;
+  }
+
   // The same frames in the other unit.
   function chooseUnit(chosen) {
     const longest = recordings.reduce((a, b) => (b.starts[b.frames] > a.starts[a.frames] ? b : a));
-    const [from, to] = view.isAll() ? [] : [frameAt(longest, view.from), frameAt(longest, view.to)];
+    const [from, to] = view.isAll() ? [] : [frameAt(longest, view.from), frameAt(longest, view.to - 2e-9)];
     unit = chosen;
     view.place = null;
     byId("readout").hidden = true;
     view.all = unit === "frames" ? { from: -0.5, to: frameCount - 0.5 } : { from: 0, to: seconds };
-    view.least = 8 * (view.all.to - view.all.from) / frameCount;
+    view.least = 8 * (unit === "frames" ? 1 : usualSeconds());
     const places = placesOf(longest);
     view.set(from === undefined ? view.all.from : places.begins(from), to === undefined ? view.all.to : places.begins(to + 1));
   }
@@ -239,7 +245,7 @@ function startRecordings() {
   function showStutter(run, frame) {
     const places = placesOf(run);
     const middle = (places.begins(frame) + places.begins(frame + 1)) / 2, half = unit === "frames" ? 30 : 0.5;
-    run.shown = true;
+    if (!run.shown) document.querySelector(`#recorded-legend [data-run="${run.index}"]`).click();
     view.set(middle - half - (places.begins(frame + 1) - places.begins(frame)) / 2, middle + half + (places.begins(frame + 1) - places.begins(frame)) / 2);
     byId("recorded").scrollIntoView({ block: "start" });
   }
@@ -262,6 +268,7 @@ function startRecordings() {
     view.scale = scale;
     redraw();
   });
+  byId("recorded-unit").hidden = seconds === 0;
   makeChoice("recorded-unit", "unit", seconds > 0 ? "seconds" : "frames", chooseUnit);
   return { view, draw, drawSpread, redraw, section: "recorded" };
 }
