@@ -12,12 +12,16 @@ function begin() {
     show(["times", "spread"]);
     parts.push(startLaws());
   }
-  // Pictures are drawn as wide as they are seen; on paper all have the width of a page.
-  const print = (width) => parts.forEach((part) => {
-    part.view.printWidth = width;
-    part.draw();
-    part.drawSpread();
-  });
+  // Pictures are drawn as wide as they are seen; on paper all have the width of a page, and nothing is folded.
+  const folded = [...document.querySelectorAll("details")].filter((details) => !details.open);
+  const print = (width) => {
+    for (const details of folded) details.open = width !== null;
+    for (const part of parts) {
+      part.view.printWidth = width;
+      part.draw();
+      part.drawSpread();
+    }
+  };
   window.addEventListener("beforeprint", () => print(820));
   window.addEventListener("afterprint", () => print(null));
   for (const part of parts) {

@@ -3,7 +3,7 @@
 const spreadHeight = 300;
 const markedShares = [0.5, 0.95, 0.99];
 
-const panelWidth = (view) => (view.printWidth ? view.printWidth / 2 - 15 : null);
+const panelWidth = (view) => (view.printWidth ? view.printWidth / 3 - 20 : null);
 
 // An axis that holds nearly all the values: logarithmic where they differ much.
 function spreadRange(spreads) {

@@ -189,22 +189,43 @@ function addChip(parent, run) {
   chip.style.setProperty("--run", runColour(run));
 }
 
-// A row a run: `columns` are [key, title, tell(run)].
+// `columns` are [key, title, tell(run)]. A row a run, or where that is too wide a column a run.
 function fillReadout(caption, runs, columns) {
   const table = document.createElement("table");
   addHtml(table, "caption", caption);
+  if (window.innerWidth < 700) fillByRun(table, runs, columns);
+  else fillByColumn(table, runs, columns);
+  byId("readout").replaceChildren(table);
+}
+
+function addRunHead(row, run) {
+  const name = addHtml(row, "th");
+  addChip(name, run);
+  name.append(run.name);
+}
+
+function fillByColumn(table, runs, columns) {
   const head = addHtml(addHtml(table, "thead"), "tr");
   addHtml(head, "th");
   for (const [, title] of columns) addHtml(head, "th", title);
   const body = addHtml(table, "tbody");
   for (const run of runs) {
     const row = addHtml(body, "tr", "", { "data-run": run.index });
-    const name = addHtml(row, "th");
-    addChip(name, run);
-    name.append(run.name);
+    addRunHead(row, run);
     for (const [key, , tell] of columns) addHtml(row, "td", tell(run), { "data-key": key });
   }
-  byId("readout").replaceChildren(table);
+}
+
+function fillByRun(table, runs, columns) {
+  const head = addHtml(addHtml(table, "thead"), "tr");
+  addHtml(head, "th");
+  for (const run of runs) addRunHead(head, run);
+  const body = addHtml(table, "tbody");
+  for (const [key, title, tell] of columns) {
+    const row = addHtml(body, "tr");
+    addHtml(row, "th", title);
+    for (const run of runs) addHtml(row, "td", tell(run), { "data-key": key, "data-run": run.index });
+  }
 }
 
 function placeReadout(chart, at) {
