@@ -30,11 +30,11 @@ void write_tiles(std::ostream& out, const NumberGroup& group) {
     out << "</dl></div>\n";
 }
 
-// The heads of columns that are recordings.
-void write_heads(std::ostream& out, const Report& report) {
-    for (std::size_t i = 0; i < report.recordings.size(); ++i) {
-        out << "<th scope=\"col\">" << chip(i) << escaped(report.recordings[i].name) << "</th>";
-    }
+// The head of a column that is a recording. Names of files may break where their parts end.
+void write_head(std::ostream& out, const Report& report, std::size_t place) {
+    out << "<th scope=\"col\">" << chip(place);
+    for (const char c : escaped(report.recordings.at(place).name)) out << c << (c == '_' || c == '.' ? "<wbr>" : "");
+    out << "</th>";
 }
 
 void write_group(std::ostream& out, const NumberGroup& group, std::size_t columns) {
@@ -142,15 +142,14 @@ void write_longest(std::ostream& out, std::size_t place, std::vector<Stutter> st
     std::stable_sort(stutters.begin(), stutters.end(),
                      [](const Stutter& a, const Stutter& b) { return a.frame_ms > b.frame_ms; });
     if (stutters.size() > most) stutters.resize(most);
-    out << "<div class=\"scroll\"><table class=\"stutters\"><thead><tr><th scope=\"col\">At</th><th "
-           "scope=\"col\">Frame</th>"
+    out << "<div class=\"scroll\"><table class=\"stutters\"><thead><tr><th scope=\"col\">At</th>"
            "<th scope=\"col\">Took <small>ms</small></th><th scope=\"col\">Usual <small>ms</small></th>"
-           "<th scope=\"col\" class=\"words\">Cause</th></tr></thead><tbody>\n";
+           "<th scope=\"col\" class=\"words\">Cause</th><th scope=\"col\">Frame</th></tr></thead><tbody>\n";
     for (const Stutter& stutter : stutters) {
         out << "<tr><td><button type=\"button\" data-recording=\"" << place << "\" data-frame=\"" << stutter.frame
-            << "\">" << clock_text(stutter.begins_ms) << "</button></td><td>" << stutter.frame << "</td><td>"
-            << figure(stutter.frame_ms, 1) << "</td><td>" << figure(stutter.mean_ms, 1) << "</td><td class=\"words\">"
-            << escaped(name_of(stutter.cause)) << "</td></tr>\n";
+            << "\">" << clock_text(stutter.begins_ms) << "</button></td><td>" << figure(stutter.frame_ms, 1)
+            << "</td><td>" << figure(stutter.mean_ms, 1) << "</td><td class=\"words\">"
+            << escaped(name_of(stutter.cause)) << "</td><td>" << stutter.frame << "</td></tr>\n";
     }
     out << "</tbody></table></div>\n";
 }
@@ -168,7 +167,7 @@ void write_numbers(std::ostream& out, const Report& report) {
         return write_meanings(out, groups);
     }
     out << "<div class=\"scroll\"><table class=\"numbers\"><thead><tr><th scope=\"col\">Figure</th>";
-    write_heads(out, report);
+    for (std::size_t i = 0; i < report.recordings.size(); ++i) write_head(out, report, i);
     out << "</tr></thead><tbody>\n";
     for (const NumberGroup& group : groups) write_group(out, group, report.recordings.size());
     out << "</tbody></table></div>\n";
@@ -178,9 +177,7 @@ void write_numbers(std::ostream& out, const Report& report) {
 void write_comparisons(std::ostream& out, const Report& report) {
     for (const Comparison& comparison : report.comparisons) {
         out << "<div class=\"scroll\"><table class=\"differences\"><thead><tr><th scope=\"col\">Figure</th>";
-        for (const std::size_t place : {comparison.first, comparison.second}) {
-            out << "<th scope=\"col\">" << chip(place) << escaped(report.recordings.at(place).name) << "</th>";
-        }
+        for (const std::size_t place : {comparison.first, comparison.second}) write_head(out, report, place);
         out << "<th scope=\"col\">Change</th><th scope=\"col\">95 % interval</th>"
                "<th scope=\"col\" class=\"words\">The second is</th></tr></thead><tbody>\n";
         for (const Difference& difference : comparison.differences) write_difference(out, difference);
