@@ -47,8 +47,8 @@ NumberGroup rates(std::span<const ReportedRecording> recordings) {
               [](const Figures& f) { return f.p1_fps; });
     group.add("P0.1", "fps", 1, "0.1 % low as a percentile: 99.9 % of the frames are faster",
               [](const Figures& f) { return f.p01_fps; });
-    group.add("least", "fps", 1, "of the longest frame", [](const Figures& f) { return f.least_fps; });
-    group.add("most", "fps", 1, "of the shortest frame", [](const Figures& f) { return f.most_fps; });
+    group.add("minimum", "fps", 1, "of the longest frame", [](const Figures& f) { return f.least_fps; });
+    group.add("maximum", "fps", 1, "of the shortest frame", [](const Figures& f) { return f.most_fps; });
     group.add("1 % low, mean", "fps", 1, "1000 over the mean time of the slowest 1 % of the frames",
               [](const Figures& f) { return f.low_1.mean; });
     group.add("0.1 % low, mean", "fps", 1, "1000 over the mean time of the slowest 0.1 % of the frames",
@@ -123,7 +123,7 @@ NumberGroup bottleneck(std::span<const ReportedRecording> recordings) {
 }
 
 NumberGroup extent(std::span<const ReportedRecording> recordings) {
-    Group group(recordings, "Extent");
+    Group group(recordings, "Recording");
     group.add("duration", "s", 1, "", [](const Figures& f) { return f.seconds; });
     group.add("frames", "", 0, "rendered by the application",
               [](const Figures& f) { return static_cast<double>(f.frames); });
