@@ -54,7 +54,7 @@ function framesInView(places, frames, x) {
 // Whether so many frames are in view that several share a bucket.
 function isThinned(places, frames, x) {
   const { begin, end } = framesInView(places, frames, x);
-  return end - begin > 2 * (x.end - x.begin);
+  return end - begin > 2 * (along(x, places.begins(end)) - along(x, places.begins(begin)));
 }
 
 // Frames in view, one bucket each as long as no more than two share a column of the picture, else one a column: no
