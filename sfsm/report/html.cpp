@@ -18,13 +18,11 @@ using namespace report;
 
 constexpr std::size_t most_over_each_other = 7;  // runs in one chart: what was recorded, and six laws
 
-void write_facts(std::ostream& out, const Report& report) {
+void write_run_facts(std::ostream& out, const Report& report) {
     if (report.facts.empty()) return;
-    out << "<div class=\"facts\">\n<h3>The run</h3>\n<dl>\n";
-    for (const auto& [name, value] : report.facts) {
-        out << "<div><dt>" << escaped(name) << "</dt><dd>" << escaped(value) << "</dd></div>\n";
-    }
-    out << "</dl>\n</div>\n";
+    out << "<div class=\"facts\">\n<h3>The run</h3>\n";
+    write_facts(out, report.facts);
+    out << "</div>\n";
 }
 
 // What is marked: the value none of the others beats, unless all are the same as they are shown.
@@ -106,7 +104,7 @@ void write_part(std::ostream& out, const Report& report, std::string_view name) 
     if (name == "origin-lists") write_origins(out, report);
     if (name == "runs-title") out << escaped(report.runs_title);
     if (name == "runs-words" && !report.runs_words.empty()) out << "<p>" << escaped(report.runs_words) << "</p>\n";
-    if (name == "facts") write_facts(out, report);
+    if (name == "facts") write_run_facts(out, report);
     if (name == "scorecard") write_scorecard(out, report);
     if (name == "small-multiples") write_small_multiples(out, report);
     if (name == "picture") write_report_svg(out, report);

@@ -89,15 +89,6 @@ void write_difference(std::ostream& out, const Difference& difference) {
     out << "</td><td class=\"words\">" << verdict(difference) << "</td></tr>\n";
 }
 
-void write_facts(std::ostream& out, const ReportedRecording& recording) {
-    if (recording.facts.empty()) return;
-    out << "<dl class=\"facts\">\n";
-    for (const auto& [name, value] : recording.facts) {
-        out << "<div><dt>" << escaped(name) << "</dt><dd>" << escaped(value) << "</dd></div>\n";
-    }
-    out << "</dl>\n";
-}
-
 void write_notes(std::ostream& out, const ReportedRecording& recording) {
     if (recording.notes.empty()) return;
     out << "<ul class=\"notes\">\n";
@@ -160,6 +151,15 @@ std::string chip(std::size_t place) {
     return "<i class=\"chip\" style=\"--run: var(--run-" + std::to_string(place % 8) + ")\"></i>";
 }
 
+void write_facts(std::ostream& out, const std::vector<std::pair<std::string, std::string>>& facts) {
+    if (facts.empty()) return;
+    out << "<dl class=\"facts\">\n";
+    for (const auto& [name, value] : facts) {
+        out << "<div><dt>" << escaped(name) << "</dt><dd>" << escaped(value) << "</dd></div>\n";
+    }
+    out << "</dl>\n";
+}
+
 void write_numbers(std::ostream& out, const Report& report) {
     const std::vector<NumberGroup> groups = numbers_of(report.recordings);
     if (report.recordings.size() == 1) {
@@ -191,7 +191,7 @@ void write_origins(std::ostream& out, const Report& report) {
         if (recording.facts.empty() && recording.notes.empty()) continue;
         out << "<div class=\"origin\">";
         if (report.recordings.size() > 1) out << "<h3>" << chip(i) << escaped(recording.name) << "</h3>\n";
-        write_facts(out, recording);
+        write_facts(out, recording.facts);
         write_notes(out, recording);
         out << "</div>\n";
     }

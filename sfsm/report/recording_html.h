@@ -16,6 +16,9 @@ void write_comparisons(std::ostream& out, const Report& report);
 // Of each recording what it says of the game and the machine, and how it was read.
 void write_origins(std::ostream& out, const Report& report);
 
+// Names with their values; nothing where there are none.
+void write_facts(std::ostream& out, const std::vector<std::pair<std::string, std::string>>& facts);
+
 // A figure for each recording with CPU or GPU times, for the script to draw into.
 void write_busy_figures(std::ostream& out, const Report& report);
 
