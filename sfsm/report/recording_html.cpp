@@ -115,17 +115,21 @@ std::string clock_text(double ms) {
     return std::to_string(time / hour) + ':' + two_digits(minutes) + ':' + rest;
 }
 
-// "12 stutters: 9 of shader compilation, 3 of the GPU".
+// "12 stutters: 9 x shader compilation, 3 x GPU."
 std::string counted_causes(const std::vector<Stutter>& stutters) {
     std::array<std::int64_t, 6> counts{};
     for (const Stutter& stutter : stutters) ++counts.at(static_cast<std::size_t>(stutter.cause));
+    const std::string all = std::to_string(stutters.size()) + (stutters.size() == 1 ? " stutter" : " stutters");
+    if (counts[static_cast<std::size_t>(Cause::untold)] == std::ssize(stutters)) {
+        return all + ". The log doesn't tell why.";
+    }
     std::string text;
     for (std::size_t cause = 0; cause < counts.size(); ++cause) {
         if (counts[cause] == 0) continue;
         text += (text.empty() ? "" : ", ") + std::to_string(counts[cause]) + " \u00d7 " +
                 std::string(name_of(static_cast<Cause>(cause)));
     }
-    return text;
+    return all + ": " + text + ".";
 }
 
 void write_longest(std::ostream& out, std::size_t place, std::vector<Stutter> stutters) {
@@ -229,8 +233,7 @@ void write_stutters(std::ostream& out, const Report& report) {
         if (recording.stutters.empty()) continue;
         out << "<div class=\"stutter-list\">";
         if (report.recordings.size() > 1) out << "<h3>" << chip(i) << escaped(recording.name) << "</h3>\n";
-        out << "<p>" << recording.stutters.size() << (recording.stutters.size() == 1 ? " stutter: " : " stutters: ")
-            << escaped(counted_causes(recording.stutters)) << ".</p>\n";
+        out << "<p>" << escaped(counted_causes(recording.stutters)) << "</p>\n";
         write_longest(out, i, recording.stutters);
         out << "</div>\n";
     }
