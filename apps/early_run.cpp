@@ -32,6 +32,7 @@ Rerun EarlyRun::run(const sfsm::simulate::Contestant& law, const sfsm::TargetSch
     std::size_t piece = 0;
     while (const Times* times = next(piece++)) {
         for (const double ms : *times) {
+            if (is_given_up_) return rerun;
             row.target_ms = targets.at(row.frame);
             row.frame_ms = ms;
             const sfsm::Replayed replayed = replaying.next(row);

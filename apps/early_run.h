@@ -1,6 +1,7 @@
 // A law's open-loop run over a recording while it is still being read: reading takes one core and deciding another.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <deque>
 #include <future>
@@ -45,7 +46,8 @@ private:
     std::mutex mutex_;
     std::condition_variable changed_;
     std::deque<Times> pieces_;  // none moves while others are added
-    bool is_closed_ = false, is_given_up_ = false;
+    bool is_closed_ = false;
+    std::atomic<bool> is_given_up_ = false;
     std::future<Rerun> result_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <stdexcept>
 
 namespace apps {
@@ -23,16 +24,6 @@ void append_folder(std::vector<RecordedFile>& files, const std::string& folder) 
     for (std::string& path : found) files.push_back({std::move(path), true});
 }
 
-// The last `parts` of a path.
-std::string end_of(const fs::path& path, std::ptrdiff_t parts) {
-    const std::vector<fs::path> all(path.begin(), path.end());
-    fs::path end;
-    for (auto part = all.end() - std::min(parts, std::ssize(all)); part != all.end(); ++part) {
-        if (*part != "/") end /= *part;
-    }
-    return end.string();
-}
-
 }  // namespace
 
 std::vector<RecordedFile> recorded_files(const std::vector<std::string>& paths) {
@@ -49,19 +40,12 @@ std::vector<RecordedFile> recorded_files(const std::vector<std::string>& paths) 
 }
 
 std::vector<std::string> short_names(const std::vector<std::string>& paths) {
-    constexpr std::ptrdiff_t most_parts = 4;
+    std::set<std::string> taken;
     std::vector<std::string> names;
     for (const std::string& path : paths) {
-        const auto tells_apart = [&](std::ptrdiff_t parts) {
-            return std::count_if(paths.begin(), paths.end(), [&](const std::string& other) {
-                       return end_of(other, parts) == end_of(path, parts);
-                   }) == 1;
-        };
-        std::ptrdiff_t parts = 1;
-        while (parts < most_parts && !tells_apart(parts)) ++parts;
-        std::string name = path == "-" ? "standard input" : end_of(path, tells_apart(parts) ? parts : 1);
-        const auto before = std::count(paths.begin(), paths.begin() + std::ssize(names), path);
-        if (before > 0) name += " (" + std::to_string(before + 1) + ")";
+        const std::string file = path == "-" ? "standard input" : fs::path(path).filename().string();
+        std::string name = file;
+        for (int number = 2; !taken.insert(name).second; ++number) name = file + " (" + std::to_string(number) + ")";
         names.push_back(std::move(name));
     }
     return names;

@@ -15,7 +15,7 @@ struct RecordedFile {
 // for a folder that can't be read or has no files.
 std::vector<RecordedFile> recorded_files(const std::vector<std::string>& paths);
 
-// The files' names, with the folders that tell those apart that are alike. A file that is named twice has a number.
+// The files' names without folders, which nobody needs to know; those that are alike are numbered from the second on.
 std::vector<std::string> short_names(const std::vector<std::string>& paths);
 
 }  // namespace apps

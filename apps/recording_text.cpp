@@ -18,10 +18,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using sfsm::Figures;
 
-Json number(double value) {
-    return std::isfinite(value) ? Json(value) : Json();
-}
-
 Json low_json(const sfsm::Low& low) {
     return {{"percentile", number(low.percentile)}, {"mean", number(low.mean)}, {"integral", number(low.integral)}};
 }
@@ -69,25 +65,17 @@ std::string fixed(double value, int digits) {
     return text.str();
 }
 
-std::string with_sign(double percents) {
-    return (percents < 0 ? "" : "+") + fixed(percents, 1);
-}
-
-// Of shares the unit is a hundredth of all, which is no per cent of what was.
-std::string change_text(const sfsm::Difference& difference, double change) {
-    if (!std::isfinite(change)) return "-";
-    return with_sign(100 * change) + (difference.is_share ? " points" : " %");
-}
-
-std::string interval_text(const sfsm::Difference& difference) {
-    if (!std::isfinite(difference.low)) return "-";
-    return with_sign(100 * difference.low) + " to " + change_text(difference, difference.high);
+// Characters of UTF-8.
+std::size_t width_of(std::string_view text) {
+    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
 // Of a long name the end, which tells files apart better than the beginning.
 std::string column_name(std::string_view name) {
     constexpr std::size_t longest = 28;
-    return name.size() <= longest ? std::string(name) : "..." + std::string(name.substr(name.size() - longest + 3));
+    if (width_of(name) <= longest) return std::string(name);
+    while (width_of(name) > longest - 3 || (name.front() & 0xC0) == 0x80) name.remove_prefix(1);
+    return "..." + std::string(name);
 }
 
 struct TableLine {
@@ -101,15 +89,16 @@ void write_table(std::ostream& out, const std::vector<TableLine>& lines) {
     std::size_t label_width = 0;
     std::vector<std::size_t> widths;
     for (const TableLine& line : lines) {
-        label_width = std::max(label_width, line.label.size());
+        label_width = std::max(label_width, width_of(line.label));
         widths.resize(std::max(widths.size(), line.cells.size()), narrowest);
-        for (std::size_t i = 0; i < line.cells.size(); ++i) widths[i] = std::max(widths[i], line.cells[i].size());
+        for (std::size_t i = 0; i < line.cells.size(); ++i) widths[i] = std::max(widths[i], width_of(line.cells[i]));
     }
+    const auto blanks = [](std::size_t count) { return std::string(count, ' '); };
     for (const TableLine& line : lines) {
-        out << std::left << std::setw(line.cells.empty() ? 0 : static_cast<int>(label_width)) << line.label
-            << std::right;
+        out << line.label;
+        if (!line.cells.empty()) out << blanks(label_width - width_of(line.label));
         for (std::size_t i = 0; i < line.cells.size(); ++i)
-            out << "  " << std::setw(static_cast<int>(widths[i])) << line.cells[i];
+            out << blanks(2 + widths[i] - width_of(line.cells[i])) << line.cells[i];
         out << '\n';
     }
 }
@@ -140,6 +129,10 @@ void append_frame(std::string& line, const sfsm::FrameRecord& frame) {
 }
 
 }  // namespace
+
+Json number(double value) {
+    return std::isfinite(value) ? Json(value) : Json();
+}
 
 Json figures_json(const Figures& figures, std::span<const sfsm::Stutter> stutters) {
     Json json;
@@ -207,9 +200,10 @@ void write_differences(std::ostream& out, std::string_view first, std::string_vi
     for (const sfsm::Difference& difference : differences) {
         const double scale = difference.is_share ? 100 : 1;
         const int digits = difference.is_share ? 2 : 1;
-        TableLine line{difference.name + " [" + difference.unit + "]",
-                       {fixed(scale * difference.first, digits), fixed(scale * difference.second, digits),
-                        change_text(difference, difference.change), interval_text(difference)}};
+        TableLine line{
+            difference.name + " [" + difference.unit + "]",
+            {fixed(scale * difference.first, digits), fixed(scale * difference.second, digits),
+             sfsm::report::change_text(difference, difference.change), sfsm::report::interval_text(difference)}};
         if (difference.is_clear()) line.cells.push_back("clear");
         lines.push_back(std::move(line));
     }

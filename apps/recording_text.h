@@ -15,6 +15,9 @@
 
 namespace apps {
 
+// Null for what is no number.
+nlohmann::ordered_json number(double value);
+
 // Keys end in their unit, shares are in [0, 1]; null for what is no number. `stutters` are those of the same recording.
 nlohmann::ordered_json figures_json(const sfsm::Figures& figures, std::span<const sfsm::Stutter> stutters);
 

@@ -96,7 +96,8 @@ void run(const ReplayOptions& options) {
 }  // namespace apps
 
 int main(int argc, char** argv) {
-    CLI::App app("Feeds a recorded or a simulated run through control laws, and says what becomes of it.", "replay");
+    CLI::App app("Says how recorded runs went, and what control laws would have made of a recorded or a simulated one.",
+                 "replay");
     apps::ReplayOptions options;
     apps::add_replay_options(app, options);
     return apps::run_program(

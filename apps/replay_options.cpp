@@ -94,14 +94,16 @@ void add_replay_options(CLI::App& app, ReplayOptions& options) {
         ->excludes(trace, law, target, delay, process, chain, column, unit, open, report, svg, fit, verify, explain);
 }
 
+std::vector<Place> outputs_of(const ReplayOptions& options) {
+    return {{"--json", options.json}, {"--csv", options.csv}, {"--report", options.report}, {"--svg", options.svg}};
+}
+
 void check(ReplayOptions& options) {
     options.simulated.csv = options.csv;
     options.simulated.json = options.json;
-    const Place outputs[] = {
-        {"--json", options.json}, {"--csv", options.csv}, {"--report", options.report}, {"--svg", options.svg}};
     std::vector<Place> inputs;
     for (const std::string& path : options.recordings) inputs.push_back({"RECORDING", path == "-" ? "" : path});
-    check_places(inputs, outputs);
+    check_places(inputs, outputs_of(options));
     if (!options.simulated.scenario.empty()) return check(options.simulated);
     check_count(options);
     if (!options.target_ms.empty()) sfsm::TargetSchedule::parse(options.target_ms);

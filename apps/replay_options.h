@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/places.h"
 #include "apps/simulate.h"
 
 namespace apps {
@@ -27,6 +28,9 @@ struct ReplayOptions {
 
 // Adds the options to `app`; parsing fills `options`, which must stay where it is.
 void add_replay_options(CLI::App& app, ReplayOptions& options);
+
+// All that may be asked for; those that aren't have an empty path.
+std::vector<Place> outputs_of(const ReplayOptions& options);
 
 // The rules between options. Throws std::invalid_argument with one line.
 void check(ReplayOptions& options);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "apps/recording_text.h"
 #include "sfsm/summary.h"
 
 namespace apps {
@@ -49,10 +50,6 @@ std::string value_text(const sfsm::Score& score) {
     std::ostringstream text;
     text << std::fixed << std::setprecision(score.digits) << score.value;
     return text.str();
-}
-
-Json number(double value) {
-    return std::isfinite(value) ? Json(value) : Json();
 }
 
 void add_metrics(Json& json, const sim::Metrics& metrics) {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "apps/output.h"
+#include "apps/places.h"
 #include "apps/progress.h"
 #include "apps/recorded_files.h"
 #include "apps/recording_text.h"
@@ -58,23 +59,9 @@ struct Outputs {
 };
 
 sfsm::Over over_target(const Session& session) {
-    sfsm::Over over{std::nan(""), 0, std::nan("")};
-    if (!session.has_targets) return over;
+    if (!session.has_targets) return sfsm::over_targets(session.recording.frames, {});
     const sfsm::RunRows rows = rows_of(session);
-    std::int64_t timed = 0;
-    double first_target = 0;
-    bool is_constant = true;
-    for (std::size_t i = 0; i < rows.count; ++i) {
-        const sfsm::TraceRow& row = rows.at(i);
-        if (i == 0) first_target = row.target_ms;
-        is_constant = is_constant && row.target_ms == first_target;
-        if (!sfsm::is_timed(session.recording.frames[i])) continue;
-        ++timed;
-        over.frames += row.frame_ms > row.target_ms;
-    }
-    if (is_constant) over.limit_ms = first_target;
-    if (timed > 0) over.share = static_cast<double>(over.frames) / static_cast<double>(timed);
-    return over;
+    return sfsm::over_targets(session.recording.frames, [&](std::size_t i) { return rows.at(i).target_ms; });
 }
 
 Reviewed reviewed(const ReplayOptions& options, const std::string& path) {
@@ -91,10 +78,17 @@ Reviewed reviewed(const ReplayOptions& options, const std::string& path) {
     return one;
 }
 
+// None may be a file that is read, of a folder neither.
+void check_outputs(const ReplayOptions& options, const std::vector<RecordedFile>& files) {
+    std::vector<Place> inputs;
+    for (const RecordedFile& file : files) inputs.push_back({"RECORDING", file.path == "-" ? "" : file.path});
+    check_places(inputs, outputs_of(options));
+}
+
 // Of a folder, files that are no recordings are named and passed over.
-std::vector<Reviewed> read_all(const ReplayOptions& options) {
+std::vector<Reviewed> read_all(const ReplayOptions& options, const std::vector<RecordedFile>& files) {
     std::vector<Reviewed> all;
-    for (const RecordedFile& file : recorded_files(options.recordings)) {
+    for (const RecordedFile& file : files) {
         try {
             all.push_back(reviewed(options, file.path));
         } catch (const std::runtime_error& error) {
@@ -125,7 +119,7 @@ std::vector<sfsm::Comparison> comparisons_of(const std::vector<Reviewed>& all) {
 // The recorded run, where it is one of a law or laws are compared with it, and those of the laws.
 std::vector<Rerun> reruns_of(const Reviewed& one) {
     std::vector<Rerun> reruns;
-    if (one.session.has_targets) reruns.push_back(recorded_run(one.session));
+    if (one.has_laws() || one.session.recording.has_work()) reruns.push_back(recorded_run(one.session));
     ProgressBar bar("Replaying");
     for (const sfsm::simulate::Contestant& law : one.session.laws) {
         reruns.push_back(rerun(one.session, law));
@@ -146,9 +140,12 @@ Json recorded_json(const Reviewed& one, const std::vector<Rerun>& reruns) {
 }
 
 Json recording_json(const Reviewed& one, const std::vector<Rerun>& reruns) {
-    Json json;
+    Json json{{"name", one.name}};
     for (const auto& [key, value] : facts_of(one.session, one.path)) json[key] = value;
     if (one.has_laws()) json["delay"] = one.session.delay;  // [frames]
+    Json& facts = json["facts"] = Json::object();
+    for (const auto& [name, value] : one.session.recording.facts) facts[name] = value;
+    json["settings"] = one.session.recording.trace.settings;
     json["notes"] = one.session.recording.notes;
     json["generated"] = one.figures.generated;  // presents, not rendered
     json["recorded"] = recorded_json(one, reruns);
@@ -158,18 +155,20 @@ Json recording_json(const Reviewed& one, const std::vector<Rerun>& reruns) {
 // Of one recording with its laws; of several each, and how they differ.
 Json json_of(const std::vector<Reviewed>& all, const std::vector<Rerun>& reruns,
              const std::vector<sfsm::Comparison>& comparisons) {
-    Json json = recording_json(all.front(), reruns);
-    Json& runs = json["runs"] = Json::array();
-    for (std::size_t i = 1; i < reruns.size(); ++i) runs.push_back(rerun_json(reruns[i]));
-    if (all.size() == 1) return json;
-    Json several;
-    for (const Reviewed& one : all) several["recordings"].push_back(recording_json(one, {}));
-    for (const sfsm::Comparison& comparison : comparisons) {
-        several["comparisons"].push_back({{"first", all[comparison.first].path},
-                                          {"second", all[comparison.second].path},
-                                          {"differences", differences_json(comparison.differences)}});
+    if (all.size() == 1) {
+        Json json = recording_json(all.front(), reruns);
+        Json& runs = json["runs"] = Json::array();
+        for (std::size_t i = 1; i < reruns.size(); ++i) runs.push_back(rerun_json(reruns[i]));
+        return json;
     }
-    return several;
+    Json json;
+    for (const Reviewed& one : all) json["recordings"].push_back(recording_json(one, {}));
+    for (const sfsm::Comparison& comparison : comparisons) {
+        json["comparisons"].push_back({{"first", all[comparison.first].name},
+                                       {"second", all[comparison.second].name},
+                                       {"differences", differences_json(comparison.differences)}});
+    }
+    return json;
 }
 
 sfsm::ReportedRecording reported(const Reviewed& one) {
@@ -177,27 +176,23 @@ sfsm::ReportedRecording reported(const Reviewed& one) {
     return {one.name, recording.facts, recording.notes, one.frames(), one.figures, one.stutters, one.over_target};
 }
 
+constexpr const char* law_words =
+    "A controller decides before each frame how finely it is drawn, so that it takes as long as the target asks. ";
 constexpr const char* closed_words =
-    "A controller decides before each frame how finely it is drawn, so that it takes as long as the target asks. It "
-    "never "
-    "drew this run: what its decisions would have taken is what a model says of their work, times the load of the "
-    "recorded "
-    "frame. Below are the recorded run and what each law would have made of it.";
+    "It never drew this run: what its decisions would have taken is what a model says of their work, times the load "
+    "of the recorded frame. Below are the recorded run and what each law would have made of it.";
 constexpr const char* open_words =
-    "A controller decides before each frame how finely it is drawn, so that it takes as long as the target asks. Here "
-    "each "
-    "recorded time is taken for the time of its own decision: the times stay as they are, and only what it would "
-    "decide is "
-    "shown.";
+    "Here each recorded time is taken for the time of its own decision: the times stay as they are, and only what it "
+    "would decide is shown.";
+
 void add_runs(sfsm::Report& report, const Reviewed& one, const std::vector<Rerun>& reruns) {
     const bool is_own = one.session.recording.has_work();
     if (!one.has_laws() && !is_own) return;
     report.runs = report_runs(reruns);
     report.facts = loop_facts(one.session);
     report.runs_title = one.has_laws() ? "What a controller would have made of it" : "What the controller decided";
-    report.runs_words = one.session.course ? closed_words
-                        : one.has_laws()   ? std::string(open_words)
-                                           : std::string(sfsm::decision_words);
+    report.runs_words = one.has_laws() ? law_words + std::string(one.session.course ? closed_words : open_words)
+                                       : std::string(sfsm::decision_words);
 }
 
 std::string title_of(const std::vector<Reviewed>& all) {
@@ -248,8 +243,10 @@ void print(const std::vector<Reviewed>& all, const std::vector<sfsm::Comparison>
 }  // namespace
 
 void review(const ReplayOptions& options) {
+    const std::vector<RecordedFile> files = recorded_files(options.recordings);
+    check_outputs(options, files);
     Outputs outputs(options);
-    const std::vector<Reviewed> all = read_all(options);
+    const std::vector<Reviewed> all = read_all(options, files);
     const std::vector<sfsm::Comparison> comparisons = comparisons_of(all);
     const std::vector<Rerun> reruns = all.size() == 1 ? reruns_of(all.front()) : std::vector<Rerun>{};
     // Of a million frames each takes its time, and there are two cores.

@@ -191,8 +191,10 @@ std::vector<std::pair<std::string, std::string>> facts_of(const Session& session
     const sfsm::Recording& recording = session.recording;
     std::vector<std::pair<std::string, std::string>> facts = {{"recording", path}, {"format", recording.format}};
     for (const auto& fact : loop_facts(session)) facts.push_back(fact);
-    for (const auto& [key, value] : recording.trace.settings)
-        if (key != "law" && key != "state" && key != "delay" && key != "format") facts.emplace_back(key, value);
+    for (const char* key : {"process", "process_id", "swap_chain", "target_ms"}) {
+        if (const auto found = recording.trace.settings.find(key); found != recording.trace.settings.end())
+            facts.emplace_back(*found);
+    }
     return facts;
 }
 

@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "apps/memory.h"
+#include "sfsm/recordings/facts.h"
 #include "sfsm/report/report.h"
 #include "sfsm/summary.h"
 
@@ -55,27 +56,18 @@ void print_summary(const sfsm::Summary& summary, const std::map<std::string, std
     std::printf("memory        %s at most\n", bytes_text(peak_memory()).c_str());
 }
 
-std::vector<sfsm::FrameRecord> recorded_frames(std::span<const sfsm::TraceRow> rows) {
-    std::vector<sfsm::FrameRecord> frames(rows.size());
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        frames[i].frame_ms = rows[i].frame_ms;
-        frames[i].cpu_ms = rows[i].cpu_ms;
-        frames[i].gpu_ms = rows[i].gpu_ms;
-    }
-    return frames;
-}
-
 // `frames` are those of the rows, and must live as long as the report.
 sfsm::Report report_of(std::span<const sfsm::TraceRow> rows, std::span<const sfsm::FrameRecord> frames,
                        const std::map<std::string, std::string>& settings) {
     sfsm::Report report;
     report.title = settings.at("people") + " people on " + settings.at("device");
     report.recordings.push_back({"this run",
-                                 {settings.begin(), settings.end()},
+                                 sfsm::facts_of_trace(settings),
                                  {},
                                  frames,
                                  sfsm::figures_of(frames, 0, sfsm::usual_limits_ms),
-                                 sfsm::stutters_of(frames)});
+                                 sfsm::stutters_of(frames),
+                                 sfsm::over_targets(frames, [&](std::size_t i) { return rows[i].target_ms; })});
     const std::string& state = settings.at("state");
     report.runs.push_back(sfsm::report_run(state == "auto" ? settings.at("law") : "state " + state, rows));
     report.runs_title = "What the controller decided";
@@ -131,7 +123,8 @@ void StadiumOutputs::finish(std::span<const sfsm::TraceRow> rows, const std::map
         summary_->commit();
     }
     if (report_) {
-        const std::vector<sfsm::FrameRecord> frames = recorded_frames(rows);
+        std::vector<sfsm::FrameRecord> frames;
+        for (const sfsm::TraceRow& row : rows) frames.push_back(sfsm::frame_record(row));
         sfsm::write_report_html(report_->stream(), report_of(rows, frames, settings));
         report_->commit();
     }

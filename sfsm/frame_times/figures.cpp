@@ -52,11 +52,12 @@ private:
     double next(Place place) const { return at(std::min(place.rank + 1, std::ssize(times_))); }
 
     double mean_of_slowest(double one_in) const {
-        const double least = time(one_in);
+        const double count = std::max(1.0, static_cast<double>(times_.size()) / one_in);
+        const double whole = std::floor(count);
         double sum = 0;
-        std::size_t count = 0;
-        for (; count < times_.size() && times_[count] >= least; ++count) sum += times_[count];
-        return sum / static_cast<double>(count);
+        for (std::size_t i = 0; i < static_cast<std::size_t>(whole); ++i) sum += times_[i];
+        if (count > whole) sum += (count - whole) * times_[static_cast<std::size_t>(whole)];
+        return sum / count;
     }
 
     double integral(double one_in) const {
@@ -101,6 +102,7 @@ void fill_without_times(Figures& figures) {
 void count_fates(Figures& figures, std::span<const FrameRecord> frames) {
     for (const FrameRecord& frame : frames) {
         figures.dropped += frame.fate == FrameRecord::Fate::dropped;
+        figures.shown += frame.fate == FrameRecord::Fate::shown;
         figures.displayed += !std::isnan(frame.display_ms);
     }
 }
@@ -171,6 +173,23 @@ HeldUpBy held_up_by(const FrameRecord& frame) {
     if (has_busy_gpu && !(frame.cpu_ms > frame.gpu_ms)) return HeldUpBy::gpu;
     if (has_busy_cpu) return HeldUpBy::cpu;
     return std::isnan(frame.cpu_ms) || std::isnan(frame.gpu_ms) ? HeldUpBy::untold : HeldUpBy::neither;
+}
+
+Over over_targets(std::span<const FrameRecord> frames, const std::function<double(std::size_t frame)>& target_ms) {
+    Over over{nothing, 0, nothing};
+    if (!target_ms || frames.empty()) return over;
+    const double first_ms = target_ms(0);
+    bool is_constant = true;
+    std::int64_t timed = 0;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const double limit_ms = target_ms(i);
+        is_constant = is_constant && limit_ms == first_ms;
+        timed += is_timed(frames[i]);
+        over.frames += is_timed(frames[i]) && frames[i].frame_ms > limit_ms;
+    }
+    if (is_constant) over.limit_ms = first_ms;
+    over.share = ratio(static_cast<double>(over.frames), timed);
+    return over;
 }
 
 Figures figures_of(std::span<const FrameRecord> frames, std::int64_t generated, std::span<const double> limits_ms) {

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -19,10 +20,10 @@ inline bool is_timed(const FrameRecord& frame) {
     return frame.frame_ms > 0;
 }
 
-// "1 % low" has three meanings, of which tools show one each [frames/s]: P1; the rate of the mean time of the frames
-// that are no faster than the 99th percentile of the times (CapFrameX's "1 % low average"); and the rate of the frame
-// at which the slowest frames, longest first, have taken 1 % of all the time ("1 % low integral", and MSI
-// Afterburner's).
+// "1 % low" has three meanings, of which tools show one each [frames/s]: P1; the rate of the mean time of the slowest 1
+// % of the frames (the last in part, at least one; CapFrameX's "1 % low average" but for ties, of which it takes all);
+// and the rate of the frame at which the slowest frames, longest first, have taken 1 % of all the time ("1 % low
+// integral", and MSI Afterburner's).
 struct Low {
     double percentile = 0, mean = 0, integral = 0;
 };
@@ -46,9 +47,10 @@ enum class HeldUpBy { gpu, cpu, neither, untold };
 HeldUpBy held_up_by(const FrameRecord& frame);
 
 struct Figures {
-    std::int64_t frames = 0, timed = 0;                      // all; those with a time
-    std::int64_t dropped = 0, generated = 0, displayed = 0;  // never shown; presents besides; with a display's time
-    double seconds = 0;                                      // sum of the times
+    std::int64_t frames = 0, timed = 0;         // all; those with a time
+    std::int64_t dropped = 0, shown = 0;        // as far as their fate is told
+    std::int64_t generated = 0, displayed = 0;  // presents besides; with a display's time
+    double seconds = 0;                         // sum of the times
     double average_fps = 0, median_fps = 0, p1_fps = 0, p01_fps = 0, least_fps = 0, most_fps = 0;
     Low low_1, low_01;  // of 1 % and of 0.1 %
     double mean_ms = 0, median_ms = 0, p99_ms = 0, p999_ms = 0, least_ms = 0, most_ms = 0;
@@ -59,6 +61,9 @@ struct Figures {
     Bottleneck bottleneck;
     double mean_animation_error_ms = 0;  // of its size, where it is told; else NaN
 };
+
+// Frames over their target. `limit_ms` is the target, NaN where it changes; without targets all is NaN.
+Over over_targets(std::span<const FrameRecord> frames, const std::function<double(std::size_t frame)>& target_ms);
 
 // 120, 60 and 30 frames a second, as people write them: a game that is held at 60 is not over 16.7.
 inline constexpr std::array<double, 3> usual_limits_ms = {8.3, 16.7, 33.3};

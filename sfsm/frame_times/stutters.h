@@ -1,6 +1,7 @@
 // Frames that stand out from those before them, and why.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -22,6 +23,8 @@ std::int64_t stutter_window(double mean_ms);  // [frames], at least 1
 // both are told and neither was.
 inline constexpr std::int64_t recorder_frames = 10;
 enum class Cause { recorder, compilation, gpu, cpu, waiting, untold };
+inline constexpr std::array every_cause = {Cause::recorder, Cause::compilation, Cause::gpu,
+                                           Cause::cpu,      Cause::waiting,     Cause::untold};
 std::string_view name_of(Cause cause);  // for people: "shader compilation"
 
 struct Stutter {

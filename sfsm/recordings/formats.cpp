@@ -13,6 +13,8 @@
 namespace sfsm {
 namespace {
 
+constexpr std::string_view own_frames = "frames of replay";
+
 // The first that fits is it.
 const std::vector<Format>& formats() {
     static const std::vector<Format> table = {
@@ -29,7 +31,7 @@ const std::vector<Format>& formats() {
         {"PresentMon 2.0", Rows::presents, "CPUDuration", {}, false, "CPUFramePacingStall"},
         {"PresentMon 2.0", Rows::presents, "MsCPUBusy", {}, false, "MsCPUWait"},
         {"MangoHud", Rows::samples, "frametime", {"fps"}},
-        {"frames of replay", Rows::frames, "frame_time_ms", {"animation_error_ms"}},
+        {own_frames, Rows::frames, "frame_time_ms", {"animation_error_ms"}},
         {"FRAPS", Rows::clock, "Time (ms)", {"Frame"}},
         {"Unreal CSV profile",
          Rows::frames,
@@ -54,7 +56,7 @@ struct Names {
 };
 const std::vector<Names>& other_columns() {
     static const std::vector<Names> table = {
-        {Column::process, {"Application", "run"}},
+        {Column::process, {"Application"}},
         {Column::process_id, {"ProcessID"}},
         {Column::swap_chain, {"SwapChainAddress"}},
         {Column::cpu, {"MsCPUBusy", "CPUBusy", "CpuActive", "GameThreadTime", "cpu_ms"}},
@@ -132,6 +134,7 @@ Header place_columns(const Format& format, char separator, const std::vector<std
             if (!header.has(other.column)) place_column(header, other.column, name, fields, place);
         }
     }
+    if (format.name == own_frames) place_column(header, Column::process, "run", fields, place);
     if (header.has(Column::dropped)) drop(header, Column::displayed);
     if (header.has(Column::frame_rest)) drop(header, Column::cpu);  // it is the frame time's first part
     if (header.has(Column::display_change)) drop(header, Column::displayed_time);

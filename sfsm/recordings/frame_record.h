@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "sfsm/trace.h"
+
 namespace sfsm {
 
 struct FrameRecord {
@@ -27,5 +29,10 @@ struct FrameRecord {
     enum class Fate : std::uint8_t { untold, shown, dropped } fate = Fate::untold;
 };
 static_assert(sizeof(FrameRecord) <= 40, "recordings have millions of them");
+
+// What a trace of ours says of a frame.
+inline FrameRecord frame_record(const TraceRow& row) {
+    return {.frame_ms = row.frame_ms, .cpu_ms = row.cpu_ms, .gpu_ms = row.gpu_ms};
+}
 
 }  // namespace sfsm

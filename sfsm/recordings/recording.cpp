@@ -52,7 +52,7 @@ Recording our_recording(LineReader& lines) {
     stream.frames = static_cast<std::int64_t>(recording.trace.rows.size());
     recording.frames.reserve(recording.trace.rows.size());
     for (const TraceRow& row : recording.trace.rows) {
-        recording.frames.push_back({row.frame_ms, row.cpu_ms, row.gpu_ms});
+        recording.frames.push_back(frame_record(row));
         if (!std::isnan(row.frame_ms)) stream.seconds += row.frame_ms / 1000;
     }
     return recording;

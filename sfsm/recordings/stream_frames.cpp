@@ -29,7 +29,9 @@ float detail(float told, bool is_usable, StreamFrames& stream, std::int64_t plac
 // What was shown, beside what was rendered.
 std::string rates(const StreamFrames& stream) {
     const double seconds = stream.seconds();
-    const auto frames = static_cast<std::int64_t>(stream.frames.size()), presents = frames + stream.generated.count();
+    const auto frames = std::count_if(stream.frames.begin(), stream.frames.end(),
+                                      [](const FrameRecord& frame) { return !std::isnan(frame.frame_ms); });
+    const std::int64_t presents = frames + stream.generated.count();
     std::string text = std::to_string(presents) + " presented, " + std::to_string(frames) + " rendered";
     const auto a_second = [&](std::int64_t count) {
         return std::to_string(std::llround(static_cast<double>(count) / seconds));

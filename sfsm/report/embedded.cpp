@@ -9,6 +9,7 @@
 
 #include "sfsm/number_text.h"
 #include "sfsm/report/markup.h"
+#include "sfsm/report/numbers.h"
 #include "sfsm/report/plot.h"
 
 namespace sfsm::report {
@@ -108,8 +109,9 @@ template <class Value>
 void write_told(std::ostream& out, const char* name, std::span<const FrameRecord> frames, Value FrameRecord::*field) {
     const std::vector<float> series = field_of(frames, field);
     if (std::none_of(series.begin(), series.end(), [](float value) { return std::isfinite(value); })) return;
+    const double step = width_of(series.size()) == 1 ? fine_quantum : quantum;
     write_thinned(out << ',', name, series,
-                  [](std::ostream& to, const std::vector<float>& values) { write_packed(to, values, quantum); });
+                  [&](std::ostream& to, const std::vector<float>& values) { write_packed(to, values, step); });
 }
 
 void write_recording(std::ostream& out, const ReportedRecording& recording) {
@@ -205,8 +207,11 @@ void write_run(std::ostream& out, const ReportRun& run) {
 }  // namespace
 
 void write_embedded(std::ostream& out, const Report& report) {
-    const double target = report.recordings.empty() ? std::nan("") : report.recordings.front().over_target.limit_ms;
-    out << "{\"target_ms\": " << (std::isfinite(target) ? number_text(target) : "null") << ",\n\"recordings\": [";
+    const double target = common_target(report.recordings);
+    out << "{\"target_ms\": " << (std::isfinite(target) ? number_text(target) : "null") << ",\n\"causes\": [";
+    for (const Cause cause : every_cause)
+        out << (cause == every_cause.front() ? "" : ", ") << json_string(name_of(cause));
+    out << "],\n\"recordings\": [";
     for (const ReportedRecording& recording : report.recordings) {
         write_recording(out << (&recording == &report.recordings.front() ? "\n" : ",\n"), recording);
     }

@@ -80,8 +80,8 @@ bool has_origins(const Report& report) {
 void write_section(std::ostream& out, const Report& report, const char* file);
 
 void write_script(std::ostream& out) {
-    for (const char* file : {"parts.js", "series.js", "plot.js", "view.js", "spread.js", "recordings.js", "laws.js",
-                             "law_charts.js", "page.js"}) {
+    for (const char* file : {"parts.js", "series.js", "plot.js", "view.js", "spread.js", "recording_charts.js",
+                             "recordings.js", "laws.js", "law_charts.js", "page.js"}) {
         out << page_file(file);
     }
 }

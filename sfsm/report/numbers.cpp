@@ -10,8 +10,8 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-double unless_zero(double value) {
-    return value == 0 ? unknown : value;
+double count(std::int64_t number) {
+    return static_cast<double>(number);
 }
 
 // A group's rows, each a figure of all recordings.
@@ -26,6 +26,14 @@ public:
         NumberRow row{name, unit, meaning, {}, digits};
         for (const ReportedRecording& recording : recordings_) row.values.push_back(figure(recording.figures));
         add_row(std::move(row));
+    }
+    // A count that says nothing where it is 0 of all.
+    template <class Figure>
+    void add_if_any(const std::string& name, const std::string& meaning, const Figure& figure) {
+        const bool is_any =
+            std::any_of(recordings_.begin(), recordings_.end(),
+                        [&](const ReportedRecording& recording) { return figure(recording.figures) > 0; });
+        if (is_any) add(name, "", 0, meaning, figure);
     }
     void add_row(NumberRow row) {
         const bool says_something =
@@ -42,10 +50,11 @@ private:
 NumberGroup rates(std::span<const ReportedRecording> recordings) {
     Group group(recordings, "Frame rate");
     group.add("average", "fps", 1, "frames over time", [](const Figures& f) { return f.average_fps; });
-    group.add("median", "fps", 1, "half of the frames are faster", [](const Figures& f) { return f.median_fps; });
-    group.add("P1", "fps", 1, "1 % low as a percentile: 99 % of the frames are faster",
+    group.add("median", "fps", 1, "half of the frames are as fast or faster",
+              [](const Figures& f) { return f.median_fps; });
+    group.add("P1", "fps", 1, "1 % low as a percentile: 99 % of the frames are as fast or faster",
               [](const Figures& f) { return f.p1_fps; });
-    group.add("P0.1", "fps", 1, "0.1 % low as a percentile: 99.9 % of the frames are faster",
+    group.add("P0.1", "fps", 1, "0.1 % low as a percentile: 99.9 % of the frames are as fast or faster",
               [](const Figures& f) { return f.p01_fps; });
     group.add("minimum", "fps", 1, "of the longest frame", [](const Figures& f) { return f.least_fps; });
     group.add("maximum", "fps", 1, "of the shortest frame", [](const Figures& f) { return f.most_fps; });
@@ -84,21 +93,19 @@ NumberGroup stutter(std::span<const ReportedRecording> recordings) {
     }
     meaning += " frames, as CapFrameX counts";
     const auto of_timed = [](const Figures& f, double value) { return f.timed > 0 ? value : unknown; };
-    group.add("stutters", "", 0, meaning,
-              [&](const Figures& f) { return of_timed(f, static_cast<double>(f.stutters)); });
+    group.add("stutters", "", 0, meaning, [&](const Figures& f) { return of_timed(f, count(f.stutters)); });
     group.add("in stutter", "% of time", 2, "share of the time in such frames",
               [&](const Figures& f) { return of_timed(f, percent * f.stutter_share); });
     const std::vector<Over>& limits = recordings.front().figures.over;
     for (std::size_t i = 0; i < limits.size(); ++i) {
-        group.add("over " + figure(limits[i].limit_ms, 1) + " ms", "% of frames", 2,
-                  "slower than " + figure(1000 / limits[i].limit_ms, 0) + " fps", [&](const Figures& f) {
-                      return f.timed > 0 && i < f.over.size() ? percent * f.over[i].share : unknown;
-                  });
+        group.add("over " + figure(limits[i].limit_ms, 1) + " ms", "% of frames", 2, "", [&](const Figures& f) {
+            return f.timed > 0 && i < f.over.size() ? percent * f.over[i].share : unknown;
+        });
     }
-    const double limit = recordings.front().over_target.limit_ms;
+    const double limit = common_target(recordings);
     NumberRow target{"over the target",
                      "% of frames",
-                     std::isfinite(limit) ? "the target: " + figure(limit, 2) + " ms" : "the target changes",
+                     std::isfinite(limit) ? "the target: " + figure(limit, 2) + " ms" : "of each frame",
                      {},
                      2};
     for (const ReportedRecording& recording : recordings)
@@ -125,21 +132,53 @@ NumberGroup bottleneck(std::span<const ReportedRecording> recordings) {
 NumberGroup extent(std::span<const ReportedRecording> recordings) {
     Group group(recordings, "Recording");
     group.add("duration", "s", 1, "", [](const Figures& f) { return f.seconds; });
-    group.add("frames", "", 0, "rendered by the application",
-              [](const Figures& f) { return static_cast<double>(f.frames); });
-    group.add("without a time", "", 0, "",
-              [](const Figures& f) { return unless_zero(static_cast<double>(f.frames - f.timed)); });
-    group.add("dropped", "", 0, "rendered, never shown",
-              [](const Figures& f) { return unless_zero(static_cast<double>(f.dropped)); });
-    group.add("generated", "", 0, "presents besides, which the application didn't render",
-              [](const Figures& f) { return unless_zero(static_cast<double>(f.generated)); });
+    group.add("frames", "", 0, "rendered by the application", [](const Figures& f) { return count(f.frames); });
+    group.add_if_any("without a time", "", [](const Figures& f) { return count(f.frames - f.timed); });
+    group.add_if_any("dropped", "rendered, never shown",
+                     [](const Figures& f) { return f.dropped + f.shown > 0 ? count(f.dropped) : unknown; });
+    group.add_if_any("generated", "presents besides, which the application didn't render",
+                     [](const Figures& f) { return count(f.generated); });
     group.add("presented", "fps", 1, "with those that were generated", [](const Figures& f) {
-        return f.generated > 0 && f.seconds > 0 ? static_cast<double>(f.frames + f.generated) / f.seconds : unknown;
+        return f.generated > 0 && f.seconds > 0 ? count(f.timed + f.generated) / f.seconds : unknown;
     });
     return group.take();
 }
 
+const char* unit_of(const Difference& difference) {
+    return difference.is_share ? " points" : " %";
+}
+
+// Of what is written as hundredths.
+std::string signed_text(const Difference& difference, double change) {
+    constexpr double nearly_nothing = 0.001;
+    const bool is_fine =
+        difference.is_share || std::abs(difference.low) < nearly_nothing || std::abs(difference.high) < nearly_nothing;
+    const std::string text = figure(100 * std::abs(change), is_fine ? 2 : 1);
+    const bool is_nothing = text.find_first_not_of("0.") == std::string::npos;
+    return (change < 0 && !is_nothing ? "-" : "+") + text;
+}
+
 }  // namespace
+
+std::string change_text(const Difference& difference, double change) {
+    return std::isfinite(change) ? signed_text(difference, change) + unit_of(difference) : "\u2013";
+}
+
+std::string interval_text(const Difference& difference) {
+    if (!std::isfinite(difference.low)) return "\u2013";
+    return signed_text(difference, difference.low) + " to " + change_text(difference, difference.high);
+}
+
+double common_target(std::span<const ReportedRecording> recordings) {
+    double common = unknown;
+    for (const ReportedRecording& recording : recordings) {
+        if (std::isnan(recording.over_target.share)) continue;
+        const double limit = recording.over_target.limit_ms;
+        if (std::isnan(limit) || (!std::isnan(common) && limit != common)) return unknown;
+        common = limit;
+    }
+    return common;
+}
 
 std::vector<NumberGroup> numbers_of(std::span<const ReportedRecording> recordings) {
     std::vector<NumberGroup> groups;

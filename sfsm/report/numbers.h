@@ -21,7 +21,15 @@ struct NumberGroup {
     std::vector<NumberRow> rows;
 };
 
+// [ms]; NaN where recordings have different targets, or one that changes, or none.
+double common_target(std::span<const ReportedRecording> recordings);
+
 // Rows that say nothing of any recording are left out, and so are groups without rows.
 std::vector<NumberGroup> numbers_of(std::span<const ReportedRecording> recordings);
+
+// A change of a difference, or an end of its interval: "+2.1 %", of shares "+0.50 points", hundredths of all; with so
+// many digits that what isn't 0 isn't written as 0. Not to be told: a dash.
+std::string change_text(const Difference& difference, double change);
+std::string interval_text(const Difference& difference);  // "+2.1 to +4.0 %"
 
 }  // namespace sfsm::report

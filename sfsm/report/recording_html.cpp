@@ -60,11 +60,6 @@ void write_meanings(std::ostream& out, const std::vector<NumberGroup>& groups) {
     out << "</dl></details>\n";
 }
 
-std::string signed_percent(double share, int digits) {
-    const std::string text = figure(percent * share, digits);
-    return std::isfinite(share) && !text.starts_with('-') ? "+" + text : text;
-}
-
 // Whether the second is better, in words: rates are to be high, shares of stutter low.
 std::string verdict(const Difference& difference) {
     if (!std::isfinite(difference.low)) return "too short to tell";
@@ -76,17 +71,11 @@ std::string verdict(const Difference& difference) {
 void write_difference(std::ostream& out, const Difference& difference) {
     const double scale = difference.is_share ? percent : 1;
     const int digits = difference.is_share ? 2 : 1;
-    const std::string unit = difference.is_share ? " pp" : " %";
     out << "<tr" << (difference.is_clear() ? " class=\"clear\"" : "") << "><th scope=\"row\">"
-        << escaped(difference.name) << unit_text(difference.is_share ? "%" : difference.unit) << "</th><td>"
+        << escaped(difference.name) << unit_text(difference.unit) << "</th><td>"
         << figure(scale * difference.first, digits) << "</td><td>" << figure(scale * difference.second, digits)
-        << "</td><td>" << signed_percent(difference.change, digits) << unit << "</td><td>";
-    if (std::isfinite(difference.low)) {
-        out << signed_percent(difference.low, digits) << " to " << signed_percent(difference.high, digits) << unit;
-    } else {
-        out << figure(difference.low, digits);
-    }
-    out << "</td><td class=\"words\">" << verdict(difference) << "</td></tr>\n";
+        << "</td><td>" << change_text(difference, difference.change) << "</td><td>" << interval_text(difference)
+        << "</td><td class=\"words\">" << verdict(difference) << "</td></tr>\n";
 }
 
 void write_notes(std::ostream& out, const ReportedRecording& recording) {
@@ -138,7 +127,7 @@ void write_longest(std::ostream& out, std::size_t place, std::vector<Stutter> st
                      [](const Stutter& a, const Stutter& b) { return a.frame_ms > b.frame_ms; });
     if (stutters.size() > most) stutters.resize(most);
     out << "<div class=\"scroll\"><table class=\"stutters\"><thead><tr><th scope=\"col\">At</th>"
-           "<th scope=\"col\">Took <small>ms</small></th><th scope=\"col\">Usual <small>ms</small></th>"
+           "<th scope=\"col\">Took <small>ms</small></th><th scope=\"col\">Moving mean <small>ms</small></th>"
            "<th scope=\"col\" class=\"words\">Cause</th><th scope=\"col\">Frame</th></tr></thead><tbody>\n";
     for (const Stutter& stutter : stutters) {
         out << "<tr><td><button type=\"button\" data-recording=\"" << place << "\" data-frame=\"" << stutter.frame

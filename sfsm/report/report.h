@@ -67,7 +67,8 @@ struct ReportedRecording {
 
 // What the runs of a trace of ours show, in words.
 inline constexpr std::string_view decision_words =
-    "How each frame was drawn. People beyond the distance D move at a lower rate; in state points everybody is drawn as "
+    "How each frame was drawn. People beyond the distance D move at a lower rate; in state points everybody is drawn "
+    "as "
     "points of size S.";
 
 // Two of the report's recordings.
@@ -91,9 +92,10 @@ struct Report {
 // Text may hold anything: it is escaped. The same report gives the same bytes. Colours come again after eight runs;
 // over six laws are a table with small pictures.
 //
-// Frame times of recordings are kept to 0.001 ms, in recordings of over 200,000 frames to 0.01 ms: 1 to 3 bytes a
-// frame. Of all else a page keeps 20,000 frames as they are, of more the least and the most in each of 4,096 stretches.
-// A picture is never more than some 100 KB a run.
+// Times of a recording's frames are kept to 0.001 ms, of over 200,000 frames to 0.01 ms: 1 to 3 bytes a frame. Of all
+// else 20,000 frames are kept, a recording's to 0.001 ms and a law's to the bit; of more frames the least and the most
+// in each of 4,096 stretches, but for the times of a law's run of up to 200,000 frames. A picture is never more than
+// some 100 KB a run.
 void write_report_html(std::ostream& out, const Report& report);
 void write_report_svg(std::ostream& out, const Report& report);
 

@@ -82,10 +82,13 @@ double draw_times(std::string& out, const Report& report, const std::vector<Cour
                   double top) {
     std::vector<float> all, targets;
     for (const Course& course : courses) all.insert(all.end(), course.times.begin(), course.times.end());
-    const double target = report.recordings.front().over_target.limit_ms;
+    const double target = common_target(report.recordings);
     if (std::isfinite(target)) targets.push_back(static_cast<float>(target));
     const Axis y{0, fitted_top(all, targets), top + 240, top};
-    out += chart_frame("Frame time [ms]; triangles: stutters", y, 6);
+    const bool has_stutters =
+        std::any_of(report.recordings.begin(), report.recordings.end(),
+                    [](const ReportedRecording& recording) { return !recording.stutters.empty(); });
+    out += chart_frame(std::string("Frame time [ms]") + (has_stutters ? "; triangles: stutters" : ""), y, 6);
     if (!targets.empty()) out += line(chart_left, y(target), chart_right, y(target), faint_ink);
     double bottom = y.begin;
     for (std::size_t i = 0; i < courses.size(); ++i) {

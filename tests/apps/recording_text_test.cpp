@@ -122,10 +122,10 @@ TEST(DifferencesTable, SaysWhatIsClear) {
     std::ostringstream out;
     write_differences(out, "old.csv", "new.csv", some_differences());
     EXPECT_EQ(out.str(),
-              "                      old.csv   new.csv       change          95 % within\n"
-              "average [fps]           100.0     103.0       +3.0 %       +2.1 to +4.0 %     clear\n"
-              "P1 [fps]                 50.0      40.0      -20.0 %                    -\n"
-              "time in stutter [%]      1.00      1.50  +0.5 points  -0.1 to +1.1 points\n");
+              "                      old.csv   new.csv        change            95 % within\n"
+              "average [fps]           100.0     103.0        +3.0 %         +2.1 to +4.0 %     clear\n"
+              "P1 [fps]                 50.0      40.0       -20.0 %                      \u2013\n"
+              "time in stutter [%]      1.00      1.50  +0.50 points  -0.10 to +1.10 points\n");
 }
 
 using Named = std::pair<std::string, sfsm::Figures>;
@@ -159,7 +159,7 @@ TEST(FiguresTable, HasAColumnForEachRecording) {
                        {"another-name.csv", sfsm::figures_of(bare_frames(50, 20), 0, sfsm::usual_limits_ms)}});
     EXPECT_EQ(line_of(table, "  average"), "  average [fps]                   97.0              50.0");
     EXPECT_EQ(line_of(table, "  over 16.7"), "  over 16.7 ms [% of frames]      1.00            100.00");
-    EXPECT_EQ(line_of(table, "  generated"), "  generated                          3                 -");
+    EXPECT_EQ(line_of(table, "  generated"), "  generated                          3                 0");
     EXPECT_EQ(line_of(table, "  stutters"), "  stutters                           2                 0");
     EXPECT_EQ(line_of(table, "  GPU"), "  GPU [% of time]                100.0                 -");
 }

@@ -472,8 +472,10 @@ TEST_F(ReplayProgram, ReadsStandardInput) {
     ASSERT_EQ(piped.code, 0) << piped.err;
     json figures = json::parse(piped.out), of_file = json::parse(replay(capture() + " --open-loop --json -").out);
     EXPECT_EQ(figures.at("recording"), "-");
-    figures.erase("recording");
-    of_file.erase("recording");
+    for (const char* key : {"recording", "name"}) {
+        figures.erase(key);
+        of_file.erase(key);
+    }
     EXPECT_EQ(figures, of_file);
 }
 
@@ -615,7 +617,31 @@ TEST_F(ReplayProgram, SeveralRecordingsAreCompared) {
     const Outcome named = replay(in_folder("logs/a.csv") + " " + in_folder("logs/notes.txt"));
     EXPECT_EQ(named.code, 1) << "a file that is named must be a recording";
     const Outcome alike = replay(in_folder("logs/a.csv") + " " + in_folder("logs/older/a.csv"));
-    EXPECT_NE(alike.out.find(" logs/a.csv  older/a.csv"), std::string::npos) << alike.out;
+    EXPECT_NE(alike.out.find(" a.csv  a.csv (2)\n"), std::string::npos) << alike.out;
+}
+
+// Nor read what this very call is about to write.
+TEST_F(ReplayProgram, NeverWritesOverARecordingOfAFolder) {
+    fs::create_directories(in_folder("logs"));
+    write_log(in_folder("logs/a.csv"), 10);
+    const std::string before = content("logs/a.csv");
+    const Outcome over = replay(in_folder("logs") + " --csv " + in_folder("logs/a.csv"));
+    EXPECT_NE(over.code, 0);
+    EXPECT_TRUE(tests::one_line(over.err)) << over.err;
+    EXPECT_EQ(content("logs/a.csv"), before);
+    const Outcome beside = replay(in_folder("logs") + " --json " + in_folder("logs/b.json"));
+    EXPECT_EQ(beside.code, 0);
+    EXPECT_EQ(beside.err, "");
+}
+
+TEST_F(ReplayProgram, FactsStandInTheFiguresToo) {
+    std::ofstream(in_folder("game.csv")) << "//GPU=A fast one\n//Comment=in C:\\Users\\bob\\logs\n//recording=x\n"
+                                            "Application,MsBetweenPresents\ngame.exe,10\ngame.exe,11\n";
+    const json figures = json::parse(replay(in_folder("game.csv") + " --json -").out);
+    EXPECT_EQ(figures.at("facts").at("GPU"), "A fast one");
+    EXPECT_EQ(figures.at("facts").dump().find("bob"), std::string::npos);
+    EXPECT_EQ(figures.at("recording"), in_folder("game.csv"));
+    EXPECT_EQ(figures.at("settings").at("recording"), "x");
 }
 
 TEST_F(ReplayProgram, WritesTheFramesAsUnderstood) {

@@ -47,15 +47,13 @@ struct SlowFigures {
     long double low_mean(long double share) const {
         std::vector<long double> sorted = times;
         std::sort(sorted.begin(), sorted.end());
-        const long double n = static_cast<long double>(sorted.size());
-        const long double place = (n + 1.0L / 3) * (1 - share) + 1.0L / 3;
-        // What stands behind the place, and what is as slow as the first there.
-        const std::size_t first = place >= n ? sorted.size() - 1 : static_cast<std::size_t>(std::ceil(place)) - 1;
-        long double sum = 0, count = 0;
-        for (const long double time : sorted) {
-            if (time < sorted[first]) continue;
-            sum += time;
-            count += 1;
+        const long double all = static_cast<long double>(sorted.size());
+        const long double count = std::max(1.0L, share * all);
+        // Each frame counts as far as it is among the last `count` places.
+        long double sum = 0;
+        for (std::size_t i = 0; i < sorted.size(); ++i) {
+            const long double place = all - static_cast<long double>(i);  // from the slowest, 1
+            sum += sorted[i] * std::clamp(count - (place - 1), 0.0L, 1.0L);
         }
         return 1000 * count / sum;
     }
@@ -143,6 +141,13 @@ TEST(Figures, AreThoseOfTheSlowWayOfLongRuns) {
                 expect_figures(times_of(kind, frames, seed), name + ' ' + std::to_string(frames));
         }
     }
+}
+
+// Of frames that are nearly all alike the slowest are still the slowest.
+TEST(Figures, TiesDontHideTheSlowest) {
+    std::vector<double> times(995, 16);
+    times.insert(times.end(), 5, 100);
+    EXPECT_NEAR(figures_of(run_of(times), 0, {}).low_1.mean, 1000.0 / 58, 1e-9);
 }
 
 // By hand: 200 frames of 10 ms but for one of 100 ms and one of 50 ms. P1 stands at place 200.33 / 100 + 1 / 3 = 2.337.

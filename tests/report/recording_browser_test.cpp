@@ -294,7 +294,7 @@ TEST_F(RecordingInBrowser, WheelZoomsAllChartsAroundThePointer) {
     wait_for("return document.querySelector('#recorded-spread-range').textContent != 'of all frames'");
     value("document.querySelector('#recorded-zoom-reset').click()");
     wait_for("return document.querySelector('#recorded-spread-range').textContent == 'of all frames'");
-    EXPECT_EQ(span(), all);
+    wait_for_span("== " + std::to_string(all));
 }
 
 TEST_F(RecordingInBrowser, DraggingPicksARange) {

@@ -1,7 +1,7 @@
 // What was recorded: frame times over time, what the display and the animation did, who was busy, how it is spread.
 
-const causes = ["start of the recorder", "shader compilation", "GPU", "CPU", "waiting", "not told"];
-const shortCauses = ["start", "shaders", "GPU", "CPU", "waiting", ""];
+// Where there is little room for a cause's name.
+const shortCause = (name) => ({ "start of the recorder": "start", "shader compilation": "shaders", "not told": "" })[name] ?? name;
 
 const mostAtFirst = 8;  // as many as there are colours
 
@@ -27,154 +27,79 @@ function startsOf({ frames, low }, seconds) {
 
 const recordings = data.recordings.map(decodeRecording);
 
-function startRecordings() {
-  const frameCount = Math.max(...recordings.map((run) => run.frames));
+// What the charts, the read-out and the controls share.
+function makeRecordingPart() {
   const seconds = Math.max(...recordings.map((run) => run.starts[run.frames]));
-  const shown = () => recordings.filter((run) => run.shown);
-  const charts = {};
-  let unit = "seconds";
-  const placesOf = (run) => (unit === "frames" ? byNumber : run.bySeconds);
   for (const run of recordings) run.bySeconds = bySeconds(run.starts);
+  const part = {
+    seconds,
+    frameCount: Math.max(...recordings.map((run) => run.frames)),
+    unit: "seconds",
+    charts: {},  // by id, as drawn last
+    shown: () => recordings.filter((run) => run.shown),
+    placesOf: (run) => (part.unit === "frames" ? byNumber : run.bySeconds),
+    frameAt: (run, at) => frameAtPlace(part.placesOf(run), at, run.frames),
+    // Seconds as minutes where there are many.
+    clock: (at) => (seconds < 120 ? brief(Number(at.toFixed(3))) : clockText(at)),
+    clockWithUnit: (at) => part.clock(at) + (seconds < 120 ? " s" : ""),
+    drawLabels: (svg, x, bottom) => (part.unit === "frames" ? drawFrameLabels(svg, x, bottom)
+        : drawXTicks(svg, x, bottom, clockTicks(x, Math.max(3, Math.round((x.end - x.begin) / 110))), part.tickText)),
+    tickText: (at) => (seconds < 120 ? brief(Number(at.toFixed(6))) : clockText(at)),
+  };
+  part.redraw = makeRedraw(() => drawRecordings(part), () => drawRecordedSpread(part));
+  part.view = makeView({ from: 0, to: seconds }, 0, part.redraw);
+  part.reader = makeRecordingReader(part);
+  return part;
+}
 
-  const redraw = makeRedraw(() => draw(), () => drawSpread());
-  const view = makeView({ from: 0, to: seconds }, 0, redraw);
+function drawRecordings(part) {
+  drawRecordedTimes(part);
+  drawSeries(part, "recorded-display", "display", false);
+  drawSeries(part, "recorded-animation", "animation", true);
+  for (const run of recordings) drawBusy(part, run);
+  part.reader.drawCross();
+  byId("recorded-range").textContent = rangeText(part);
+}
 
-  // Seconds as minutes where there are many.
-  const clock = (at) => (seconds < 120 ? brief(Number(at.toFixed(6))) : clockText(at));
-  const drawLabels = (svg, x, bottom) => (unit === "frames" ? drawFrameLabels(svg, x, bottom)
-      : drawXTicks(svg, x, bottom, clockTicks(x, Math.max(3, Math.round((x.end - x.begin) / 110))), clock));
-
-  // A stretch of frame time [ms] drawn as a line of each recording.
-  function drawTimes() {
-    const plot = view.printWidth ? 250 : window.innerWidth < 700 ? 230 : 360;
-    const marks = shown().some((run) => run.stutters.length > 0) ? 14 * shown().length + 4 : 0;
-    const chart = charts["recorded-times"] = openChart("recorded-times", plot + marks + 22, plot + marks, view, drawLabels);
-    const { x } = chart;
-    const curves = shown().map((run) => ({ run, places: placesOf(run), times: thin(run.time, placesOf(run), x) }));
-    const target = data.target_ms === null ? [] : [{ low: data.target_ms, high: data.target_ms }];
-    const sample = () => sortedSample(curves.map(({ run, places }) => sampleInView(run.time, places, x)));
-    const y = chart.y = timesAxis(view.scale, curves.flatMap(({ times }) => times), target, sample, plot, 14);
-    drawYAxis(chart.ground, x, y, 6);
-    for (const { low } of target) add(chart.layer, "path", { class: "target", d: `M${x.begin} ${px(y.at(low))}H${x.end}` });
-    curves.forEach(({ run, places, times }, i) => {
-      const group = addRun(chart.layer, run);
-      drawExtent(group, chart, run, run.time, places, times);
-      drawCarets(group, chart, y, times, places);
-      if (marks > 0) drawStutters(chart, run, places, plot + 14 + 14 * i);
-    });
+// What of the recordings is in view.
+function rangeText({ view, unit, frameCount, shown, frameAt, clock, clockWithUnit }) {
+  if (unit === "frames") {
+    const first = Math.max(0, Math.ceil(view.from)), last = Math.min(frameCount - 1, Math.floor(view.to));
+    return `frames ${grouped(first)} to ${grouped(last)} of ${grouped(frameCount)}`;
   }
+  const [run, ...others] = shown();
+  const frames = run && others.length === 0 ? `, frames ${grouped(frameAt(run, view.from))} to ${grouped(frameAt(run, view.to))}` : "";
+  return `${clock(view.from)} to ${clockWithUnit(view.to)}${frames}`;
+}
 
-  // Of many frames an area as pale as glass and the means as a line, or one recording would hide another.
-  function drawExtent(group, chart, run, series, places, buckets) {
-    const { x, y } = chart;
-    const areThin = isThinned(places, run.frames, x);
-    const isAlone = shown().length === 1;
-    add(group, "path", { class: `curve ${areThin ? isAlone ? "extent alone" : "extent" : "measured"}`, d: curvePath(buckets, places, x, y, false) });
-    if (areThin) add(group, "path", { class: "curve measured", d: curvePath(meanBuckets(series, buckets), places, x, y, false) });
-  }
+const areTold = (key) => () => recordings.some((run) => run[key]);
+const seriesText = (key) => (run) => textAt(run[key], run.read, frameText);
 
-  // A mark below each stutter, of those that share a place one; with its cause where there is room for the word.
-  function drawStutters(chart, run, places, bottom) {
-    const marks = [];
-    run.stutters.forEach((frame, i) => {
-      const place = (along(chart.x, places.begins(frame)) + along(chart.x, places.begins(frame + 1))) / 2;
-      const isInView = place > chart.x.begin - 5 && place < chart.x.end + 5;
-      if (isInView && place - (marks.at(-1)?.place ?? -Infinity) >= 4) marks.push({ place, cause: shortCauses[run.causes[i]] });
-    });
-    if (marks.length === 0) return;
-    const group = addRun(chart.layer, run);
-    add(group, "path", { class: "stutter-mark", d: marks.map(({ place }) => `M${px(place - 4)} ${bottom}l4 -9l4 9z`).join("") });
-    marks.forEach(({ place, cause }, i) => {
-      const room = (marks[i + 1]?.place ?? chart.x.end) - place - 14;
-      if (cause && room > 7 * cause.length) add(group, "text", { x: px(place + 7), y: bottom }, cause);
-    });
-  }
+// [key, title, tell(run), is there anything to tell]
+const recordedColumns = [
+  ["frame", "frame", (run) => grouped(run.read), () => true],
+  ["time", "ms", seriesText("time"), () => true],
+  ["rate", "fps", (run) => frameText(Number((1000 / valueAt(run.time, run.read)).toPrecision(4))), () => true],
+  ["display", "display ms", seriesText("display"), areTold("display")],
+  ["animation", "animation error ms", seriesText("animation"), areTold("animation")],
+  ["cpu", "CPU ms", seriesText("cpu"), areTold("cpu")],
+  ["gpu", "GPU ms", seriesText("gpu"), areTold("gpu")],
+  ["stutter", "stutter", (run) => data.causes[run.causes[run.stutters.indexOf(run.read)]] ?? "\u2013",
+    () => recordings.some((run) => run.stutters.length > 0)],
+];
 
-  function drawSeries(id, key, isSigned) {
-    if (byId(id).hidden) return;
-    const plot = 130;
-    const chart = charts[id] = openChart(id, plot + 22, plot, view, drawLabels);
-    const { x } = chart;
-    const told = shown().filter((run) => run[key]);
-    // From shown frame to shown frame: those that were never shown are no gap in what is seen.
-    const known = (buckets) => buckets.filter(({ low, high }) => low <= high);
-    const curves = told.map((run) => ({ run, places: placesOf(run), values: known(thin(run[key], placesOf(run), x)) }));
-    const buckets = curves.flatMap(({ values }) => values);
-    const y = chart.y = isSigned ? signedAxis(buckets, plot)
-        : timesAxis("fitted", buckets, [], () => sortedSample(told.map((run) => sampleInView(run[key], placesOf(run), x))), plot, 8);
-    drawYAxis(chart.ground, x, y, 4);
-    for (const { run, places, values } of curves) {
-      const group = addRun(chart.layer, run);
-      drawExtent(group, chart, run, run[key], places, values);
-      if (!isSigned) drawCarets(group, chart, y, values, places);
-    }
-  }
-
-  // As far down as up, so that 0 is in the middle.
-  function signedAxis(buckets, plot) {
-    const far = buckets.reduce((most, { low, high }) => (low <= high ? Math.max(most, -low, high) : most), 0) || 1;
-    return makeAxis(-1.05 * far, 1.05 * far, plot, 8);
-  }
-
-  // What was always busy as an area, what was so at times lighter above it, and the frame time as a line over both.
-  function drawBusy(run) {
-    const id = `recorded-busy-${run.index}`;
-    if (!byId(id)) return;
-    byId(id).hidden = !run.shown;
-    if (!run.shown) return;
-    const plot = 150, places = placesOf(run);
-    const chart = charts[id] = openChart(id, plot + 22, plot, view, drawLabels);
-    const { x } = chart;
-    const times = thin(run.time, places, x);
-    // The greater first, or it would hide the other.
-    const sum = (buckets) => buckets.reduce((all, { low, high }) => (low <= high ? all + low : all), 0);
-    const parts = ["gpu", "cpu"].filter((key) => run[key]).map((key) => ({ key, values: thin(run[key], places, x) }))
-        .sort((a, b) => sum(b.values) - sum(a.values));
-    const sample = () => sortedSample([sampleInView(run.time, places, x)]);
-    const y = chart.y = timesAxis("fitted", [...times, ...parts.flatMap(({ values }) => values)], [], sample, plot, 8);
-    chart.y = makeAxis(0, y.high, plot, 8);
-    drawYAxis(chart.ground, x, chart.y, 4);
-    for (const { key, values } of parts) {
-      add(chart.layer, "path", { class: `busy busy-${key} at-times`, d: areaPath(values, places, x, chart.y, "high") });
-      add(chart.layer, "path", { class: `busy busy-${key}`, d: areaPath(values, places, x, chart.y, "low") });
-    }
-    add(addRun(chart.layer, run), "path", { class: "curve measured", d: curvePath(meanBuckets(run.time, times), places, x, chart.y, false) });
-  }
-
-  function draw() {
-    drawTimes();
-    drawSeries("recorded-display", "display", false);
-    drawSeries("recorded-animation", "animation", true);
-    recordings.forEach(drawBusy);
-    reader.drawCross();
-    const frames = shown().length === 1 && unit === "seconds" ? `, frames ${grouped(frameAt(shown()[0], view.from))} to ${grouped(frameAt(shown()[0], view.to))}` : "";
-    byId("recorded-range").textContent = unit === "frames"
-        ? `frames ${grouped(Math.max(0, Math.ceil(view.from)))} to ${grouped(Math.min(frameCount - 1, Math.floor(view.to)))} of ${grouped(frameCount)}`
-        : `${clock(Number(view.from.toFixed(3)))} to ${clock(Number(view.to.toFixed(3)))}${seconds < 120 ? " s" : ""}${frames}`;
-  }
-
-  const frameAt = (run, at) => frameAtPlace(placesOf(run), at, run.frames);
-
-  const timed = (run, frame) => textAt(run.time, frame, frameText);
-  const columns = [
-    ["frame", "frame", (run) => grouped(run.read)],
-    ["time", "ms", (run) => timed(run, run.read)],
-    ["rate", "fps", (run) => frameText(Number((1000 / valueAt(run.time, run.read)).toPrecision(4)))],
-    ["display", "display ms", (run) => textAt(run.display, run.read, frameText), () => recordings.some((run) => run.display)],
-    ["animation", "animation error ms", (run) => textAt(run.animation, run.read, frameText), () => recordings.some((run) => run.animation)],
-    ["cpu", "CPU ms", (run) => textAt(run.cpu, run.read, frameText), () => recordings.some((run) => run.cpu)],
-    ["gpu", "GPU ms", (run) => textAt(run.gpu, run.read, frameText), () => recordings.some((run) => run.gpu)],
-    ["stutter", "stutter", (run) => causes[run.causes[run.stutters.indexOf(run.read)]] ?? "\u2013", () => recordings.some((run) => run.stutters.length > 0)],
-  ].filter(([, , , isTold]) => !isTold || isTold());
-
+function makeRecordingReader(part) {
+  const { view, shown, placesOf, frameAt } = part;
+  const columns = recordedColumns.filter(([, , , isTold]) => isTold());
   const readAt = () => shown().filter((run) => view.place <= placesOf(run).begins(run.frames));
-  const caption = () => (unit === "frames" ? `Frame ${grouped(Math.round(view.place))}` : `At ${clock(Number(view.place.toFixed(3)))}${seconds < 120 ? " s" : ""}`);
-
+  const caption = () => (part.unit === "frames" ? `Frame ${grouped(Math.round(view.place))}` : `At ${part.clockWithUnit(view.place)}`);
   const reader = {
-    readOut(at, chart) {
+    // `exact`: the frame of the first recording shown, if it is known; a frame without a time has no place of its own.
+    readOut(at, chart, exact) {
       view.place = at === null ? null : Math.min(Math.max(at, view.all.from), view.all.to);
       byId("readout").hidden = view.place === null;
       if (view.place !== null) for (const run of recordings) run.read = frameAt(run, view.place);
+      if (exact !== undefined) shown()[0].read = exact;
       reader.drawCross();
       if (view.place === null) return;
       fillReadout(caption(), readAt(), columns);
@@ -185,90 +110,97 @@ function startRecordings() {
     step(by, chart) {
       const run = shown()[0];
       if (!run) return;
-      const last = view.place === null ? frameAt(run, (view.from + view.to) / 2) : run.read + by;
-      const frame = Math.min(Math.max(last, 0), run.frames - 1), places = placesOf(run);
+      const next = view.place === null ? frameAt(run, (view.from + view.to) / 2) : run.read + by;
+      const frame = Math.min(Math.max(next, 0), run.frames - 1), places = placesOf(run);
       const at = (places.begins(frame) + places.begins(frame + 1)) / 2, span = view.to - view.from;
-      reader.readOut(at, chart);
+      reader.readOut(at, chart, frame);
       if (at < view.from || at > view.to) view.set(at - span / 2, at + span / 2);
       speak(caption(), readAt(), columns);
     },
     drawCross() {
       const keys = { "recorded-times": "time", "recorded-display": "display", "recorded-animation": "animation" };
-      for (const [id, chart] of Object.entries(charts)) {
+      for (const [id, chart] of Object.entries(part.charts)) {
         const dots = view.place === null || !keys[id] ? [] : readAt().filter((run) => run[keys[id]])
             .map((run) => ({ run, value: valueAt(run[keys[id]], run.read) }));
         drawCross(chart, view, view.place, dots);
       }
     },
   };
+  return reader;
+}
 
-  function drawSpread() {
-    const ranges = shown().map((run) => ({ run, begin: frameAt(run, view.from), end: frameAt(run, view.to) + 1 }));
-    const spreads = ranges.map(({ run, begin, end }) => ({ run, sorted: sortedValues(run.time, begin, end) }));
-    drawHistogram("recorded-histogram", spreads, spreadRange(spreads), panelWidth(view));
-    drawPercentiles("recorded-percentiles", spreads, panelWidth(view));
-    drawPercentiles("recorded-steps", ranges.map(({ run, begin, end }) => ({ run, sorted: sortedSteps(run.time.low, begin, end) })), panelWidth(view));
-    byId("recorded-spread-range").textContent = view.isAll() ? "of all frames" : "of the frames in view";
-  }
+function drawRecordedSpread(part) {
+  const { view, frameAt } = part;
+  const ranges = part.shown().filter((run) => view.from < part.placesOf(run).begins(run.frames))
+      .map((run) => ({ run, begin: frameAt(run, view.from), end: frameAt(run, view.to) + 1 }));
+  const spreads = ranges.map(({ run, begin, end }) => ({ run, sorted: sortedValues(run.time, begin, end) }));
+  const steps = ranges.map(({ run, begin, end }) => ({ run, sorted: sortedSteps(run.time.low, begin, end) }));
+  drawHistogram("recorded-histogram", spreads, spreadRange(spreads), panelWidth(view));
+  drawPercentiles("recorded-percentiles", spreads, panelWidth(view));
+  drawPercentiles("recorded-steps", steps, panelWidth(view));
+  byId("recorded-spread-range").textContent = view.isAll() ? "of all frames" : "of the frames in view";
+}
 
-  // How much each time differs from the one before.
-  function sortedSteps(times, begin, end) {
-    const steps = new Float64Array(Math.max(0, end - begin - 1));
-    let count = 0;
-    for (let i = begin + 1; i < end; ++i) {
-      const step = Math.abs(times[i] - times[i - 1]);
-      if (!Number.isNaN(step)) steps[count++] = step;
-    }
-    return steps.subarray(0, count).sort();
+// How much each time differs from the one before.
+function sortedSteps(times, begin, end) {
+  const steps = new Float64Array(Math.max(0, end - begin - 1));
+  let count = 0;
+  for (let i = begin + 1; i < end; ++i) {
+    const step = Math.abs(times[i] - times[i - 1]);
+    if (!Number.isNaN(step)) steps[count++] = step;
   }
+  return steps.subarray(0, count).sort();
+}
 
-  // What most frames take, however long some are.
-  function usualSeconds() {
-    const samples = recordings.map((run) => sampleInView(run.time, byNumber, { low: 0, high: run.frames }));
-    return ranked(sortedSample(samples), 0.5) / 1000 || seconds / frameCount;
-  }
+// What most frames take, however long some are.
+function usualSeconds({ seconds, frameCount }) {
+  const samples = recordings.map((run) => sampleInView(run.time, byNumber, { low: 0, high: run.frames }));
+  return ranked(sortedSample(samples), 0.5) / 1000 || seconds / frameCount;
+}
 
-  // The same frames in the other unit.
-  function chooseUnit(chosen) {
-    const longest = recordings.reduce((a, b) => (b.starts[b.frames] > a.starts[a.frames] ? b : a));
-    const [from, to] = view.isAll() ? [] : [frameAt(longest, view.from), frameAt(longest, view.to - 2e-9)];
-    unit = chosen;
-    view.place = null;
-    byId("readout").hidden = true;
-    view.all = unit === "frames" ? { from: -0.5, to: frameCount - 0.5 } : { from: 0, to: seconds };
-    view.least = 8 * (unit === "frames" ? 1 : usualSeconds());
-    const places = placesOf(longest);
-    view.set(from === undefined ? view.all.from : places.begins(from), to === undefined ? view.all.to : places.begins(to + 1));
-  }
+// The same frames in the other unit.
+function chooseUnit(part, unit) {
+  const { view, frameAt, frameCount, seconds } = part;
+  const longest = recordings.reduce((a, b) => (b.starts[b.frames] > a.starts[a.frames] ? b : a));
+  const [from, to] = view.isAll() ? [] : [frameAt(longest, view.from), frameAt(longest, view.to - 2e-9)];
+  part.unit = unit;
+  view.place = null;
+  byId("readout").hidden = true;
+  view.all = unit === "frames" ? { from: -0.5, to: frameCount - 0.5 } : { from: 0, to: seconds };
+  view.least = 8 * (unit === "frames" ? 1 : usualSeconds(part));
+  const places = part.placesOf(longest);
+  view.set(from === undefined ? view.all.from : places.begins(from), to === undefined ? view.all.to : places.begins(to + 1));
+}
 
-  // A second around a stutter of the list.
-  function showStutter(run, frame) {
-    const places = placesOf(run);
-    const middle = (places.begins(frame) + places.begins(frame + 1)) / 2, half = unit === "frames" ? 30 : 0.5;
-    if (!run.shown) document.querySelector(`#recorded-legend [data-run="${run.index}"]`).click();
-    view.set(middle - half - (places.begins(frame + 1) - places.begins(frame)) / 2, middle + half + (places.begins(frame + 1) - places.begins(frame)) / 2);
-    byId("recorded").scrollIntoView({ block: "start" });
-  }
+// A second around a stutter of the list.
+function showStutter(part, run, frame) {
+  const places = part.placesOf(run), begin = places.begins(frame), end = places.begins(frame + 1);
+  const around = part.unit === "frames" ? 30 : 0.5;
+  if (!run.shown) document.querySelector(`#recorded-legend [data-run="${run.index}"]`).click();
+  part.view.set(begin - around, end + around);
+  byId("recorded").scrollIntoView({ block: "start" });
+}
 
-  for (const [id, key] of [["recorded-display", "display"], ["recorded-animation", "animation"]]) {
-    byId(id).hidden = !recordings.some((run) => run[key]);
-  }
+function startRecordings() {
+  const part = makeRecordingPart();
+  const { view, redraw, charts } = part;
+  for (const [id, key] of [["recorded-display", "display"], ["recorded-animation", "animation"]]) byId(id).hidden = !areTold(key)();
   document.querySelector("#recorded .key-target").hidden = data.target_ms === null;
   document.querySelector("#recorded .key-stutter").hidden = !recordings.some((run) => run.stutters.length > 0);
   makeLegend("recorded-legend", recordings, redraw);
   byId("recorded-legend").hidden = recordings.length === 1;
   for (const id of ["recorded-times", "recorded-display", "recorded-animation", ...recordings.map((run) => `recorded-busy-${run.index}`)]) {
-    if (byId(id) && !byId(id).hidden) listenToChart(id, () => charts[id], view, reader);
+    if (byId(id) && !byId(id).hidden) listenToChart(id, () => charts[id], view, part.reader);
   }
   for (const button of document.querySelectorAll("button[data-frame]")) {
-    button.addEventListener("click", () => showStutter(recordings[button.dataset.recording], Number(button.dataset.frame)));
+    button.addEventListener("click", () => showStutter(part, recordings[button.dataset.recording], Number(button.dataset.frame)));
   }
   listenToZoom("recorded-", view);
   makeChoice("recorded-scale", "scale", "fitted", (scale) => {
     view.scale = scale;
     redraw();
   });
-  byId("recorded-unit").hidden = seconds === 0;
-  makeChoice("recorded-unit", "unit", seconds > 0 ? "seconds" : "frames", chooseUnit);
-  return { view, draw, drawSpread, redraw, section: "recorded" };
+  byId("recorded-unit").hidden = part.seconds === 0;
+  makeChoice("recorded-unit", "unit", part.seconds > 0 ? "seconds" : "frames", (unit) => chooseUnit(part, unit));
+  return { view, redraw, draw: () => drawRecordings(part), drawSpread: () => drawRecordedSpread(part), section: "recorded" };
 }

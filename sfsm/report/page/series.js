@@ -48,10 +48,12 @@ function unpackSteps({ quantum, packed }) {
 const unpack = (stored) => (stored.packed === undefined ? unpackRepeated(Float32Array, stored) : unpackSteps(stored));
 
 // `low` and `high` have the least and the most of each `width` frames; they are the same where nothing is thinned.
+// `digits`: how many after the point were kept, up to 3.
 function decodeSeries(frames, stored) {
   if (!stored) return null;
   const low = unpack(stored.low);
-  return { frames, width: stored.width, low, high: stored.high ? unpack(stored.high) : low };
+  const digits = stored.low.quantum >= 0.01 ? 2 : 3;
+  return { frames, width: stored.width, low, high: stored.high ? unpack(stored.high) : low, digits };
 }
 
 const isExact = (series) => series.width === 1;
@@ -66,8 +68,8 @@ function valueAt(series, frame) {
 function textAt(series, frame, text) {
   if (!series || frame >= series.frames) return text(NaN);
   const i = Math.floor(frame / series.width);
-  return series.low[i] === series.high[i] || Number.isNaN(series.low[i]) ? text(series.low[i])
-      : `${text(series.low[i])} to ${text(series.high[i])}`;
+  const [low, high] = [series.low[i], series.high[i]].map((value) => text(value, series.digits));
+  return series.low[i] === series.high[i] || Number.isNaN(series.low[i]) ? low : `${low} to ${high}`;
 }
 
 function sameSeries(a, b) {
@@ -89,6 +91,13 @@ function sortedValues(series, begin, end) {
     at += part.length;
   }
   return all.sort();
+}
+
+// Between the places of sorted values, as the numbers on the page have it (frame_times/figures.h).
+function percentileOf(sorted, share) {
+  const place = Math.min(Math.max((sorted.length + 1 / 3) * share + 1 / 3, 1), sorted.length), rank = Math.floor(place);
+  const next = sorted[Math.min(rank, sorted.length - 1)];
+  return sorted[rank - 1] + (place - rank) * (next - sorted[rank - 1]);
 }
 
 // The smallest of the sorted values that at least `share` of them do not exceed.

@@ -47,7 +47,7 @@ function drawHistogram(id, spreads, range, printWidth) {
 
 // Ticks at the marked percentiles; the first row tells which.
 function drawPercentileRow(group, x, sorted, y, isFirst) {
-  const places = markedShares.map((share) => x.at(ranked(sorted, share)));
+  const places = markedShares.map((share) => x.at(percentileOf(sorted, share)));
   add(group, "path", { class: "mark", d: `M${px(places[0])} ${y}H${px(places.at(-1))}` });
   let last = -Infinity;
   markedShares.forEach((share, k) => {
@@ -79,7 +79,7 @@ function drawPercentiles(id, spreads, printWidth) {
     let path = "";
     for (let pixel = x.begin; pixel <= x.end; ++pixel) {
       const share = 1 - 10 ** -x.invert(pixel);
-      path += (path ? "L" : "M") + pixel + " " + px(y.at(ranked(sorted, share)));
+      path += (path ? "L" : "M") + pixel + " " + px(y.at(percentileOf(sorted, share)));
     }
     add(addRun(svg, run), "path", { class: "curve percentile", d: path });
   }

@@ -177,11 +177,12 @@ function listenToChart(id, chart, view, reader) {
 
 // What is read out: a table beside the place, on the side that has more room, and a sentence for those who hear the page.
 
-const frameText = (value) => (Number.isNaN(value) ? "\u2013" : Number.isFinite(value) ? shortFixed(value) : value > 0 ? "\u221e" : "-\u221e");
+const frameText = (value, digits = 3) =>
+  (Number.isNaN(value) ? "\u2013" : Number.isFinite(value) ? shortFixed(value, digits) : value > 0 ? "\u221e" : "-\u221e");
 
-function shortFixed(value) {
+function shortFixed(value, digits) {
   const size = Math.abs(value);
-  return size >= 1e6 ? brief(value) : value.toFixed(size < 10 ? 3 : size < 1000 ? 2 : 1);
+  return size >= 1e6 ? brief(value) : value.toFixed(Math.min(digits, size < 10 ? 3 : size < 1000 ? 2 : 1));
 }
 
 function addChip(parent, run) {
