@@ -73,23 +73,28 @@ protected:
                  condition);
     }
 
+    // Until what was asked for is drawn.
+    void settle() const {
+        value(
+            "window.isDrawn = false; requestAnimationFrame(() => requestAnimationFrame(() => window.isDrawn = true))");
+        wait_for("return window.isDrawn");
+    }
+
     // To about these places on the axis, in two or three steps: a pixel may be many frames.
     void zoom_to(double first, double last) const {
         constexpr double most = 20, some = 1.05;
-        while (span() > some * some * (last - first)) {
-            const double margin = std::max(0.0, (span() / most - (last - first)) / 2), before = span();
+        for (double now = span(); now > some * some * (last - first); now = span()) {
+            const double margin = std::max(0.0, (now / most - (last - first)) / 2);
             drag(place("recorded-times", std::max(from(), first - margin)),
                  place("recorded-times", std::min(to(), last + margin)));
-            wait_for_span("< " + std::to_string(before));
+            wait_for_span("< " + std::to_string(now));
+            settle();
         }
     }
 
-    // And until it is drawn.
     void choose(const std::string& key, const std::string& chosen) const {
-        value("document.querySelector('#recorded [data-" + key + "=" + chosen +
-              "]').click(); window.isDrawn = false;"
-              "requestAnimationFrame(() => requestAnimationFrame(() => window.isDrawn = true))");
-        wait_for("return window.isDrawn");
+        value("document.querySelector('#recorded [data-" + key + "=" + chosen + "]').click()");
+        settle();
         EXPECT_EQ(value("return document.querySelector('#recorded [data-" + key + "=" + chosen + "]').ariaPressed"),
                   "true");
     }
@@ -294,7 +299,7 @@ TEST_F(RecordingInBrowser, WheelZoomsAllChartsAroundThePointer) {
     wait_for("return document.querySelector('#recorded-spread-range').textContent != 'of all frames'");
     value("document.querySelector('#recorded-zoom-reset').click()");
     wait_for("return document.querySelector('#recorded-spread-range').textContent == 'of all frames'");
-    wait_for_span("== " + std::to_string(all));
+    wait_for_span("> " + std::to_string(0.999 * all));
 }
 
 TEST_F(RecordingInBrowser, DraggingPicksARange) {
@@ -675,6 +680,7 @@ TEST_F(RecordingInBrowser, AMillionFramesOpen) {
     for (const double at : {2'345.0, 123'456.0, 400'001.0, 777'777.0, 997'980.0}) {
         value("document.querySelector('#recorded-zoom-reset').click()");
         wait_for_span("> 900000");
+        settle();
         zoom_to(at - 15, at + 15);
         hover(place("recorded-times", at));
         wait_for("return document.querySelector('#readout').dataset.frame == " + std::to_string(std::lround(at)));
@@ -686,6 +692,7 @@ TEST_F(RecordingInBrowser, AMillionFramesOpen) {
     }
     value("document.querySelector('#recorded-zoom-reset').click()");
     wait_for_span("> 900000");
+    settle();
     zoom_to(static_cast<double>(peak) - 15, static_cast<double>(peak) + 15);
     hover(place("recorded-times", static_cast<double>(peak)));
     wait_for("return document.querySelector('#readout').dataset.frame == " + std::to_string(peak));
