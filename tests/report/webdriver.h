@@ -124,12 +124,14 @@ inline std::string http(int port, const std::string& method, const std::string& 
                                     "\r\n\r\n" + body;
         for (std::size_t sent = 0; sent < request.size();) {
             const ssize_t count = send(connection, request.data() + sent, request.size() - sent, MSG_NOSIGNAL);
+            if (count < 0 && errno == EINTR) continue;
             if (count <= 0) break;
             sent += static_cast<std::size_t>(count);
         }
         char piece[65536];
         while (!is_whole(answer)) {
             const ssize_t count = recv(connection, piece, sizeof piece, 0);
+            if (count < 0 && errno == EINTR) continue;  // the test was stopped for a while
             if (count <= 0) break;
             answer.append(piece, static_cast<std::size_t>(count));
         }
