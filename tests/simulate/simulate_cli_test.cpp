@@ -66,7 +66,7 @@ TEST(Simulate, UsageErrorsAreOneLineAndCode2) {
         {"--simulate toy --laws bogus", "filament"},
         {"--simulate toy --seeds 0", "--seeds"},
         {"--simulate toy --seeds many", "--seeds"},
-        {"--simulate toy trace.csv", "TRACE"},
+        {"--simulate toy trace.csv", "RECORDING"},
         {"--simulate toy --law paper", "--law"},
         {"--simulate toy --verify", "--verify"},
         {"--simulate toy --frames 0", "--frames"},
