@@ -1,12 +1,12 @@
 // What a file's materials come to, and what of them is said to be lost.
 #include <gtest/gtest.h>
-#include <webp/encode.h>
 
 #include <array>
 #include <limits>
 
 #include "model/texture_sample.h"
 #include "tests/model/gltf_builder.h"
+#include "tests/model/webp.h"
 
 namespace {
 
@@ -297,11 +297,7 @@ TEST(GltfLooks, ImageFilesAreFoundByOtherSpellings) {
 }
 
 TEST(GltfLooks, WebPIsReadAsAnExtensionOrPlainSource) {
-    const std::uint8_t texels[] = {10, 200, 30, 10, 200, 30};
-    std::uint8_t* encoded = nullptr;
-    const std::size_t size = WebPEncodeLosslessRGB(texels, 2, 1, 6, &encoded);
-    const std::string webp(reinterpret_cast<const char*>(encoded), size);
-    WebPFree(encoded);
+    const std::string webp = tests::make_webp(2, 1, {10, 200, 30, 255, 10, 200, 30, 255});
     for (const bool plain : {false, true}) {
         GltfBuilder builder = tests::make_everything();
         builder.document["images"].push_back({{"bufferView", builder.add_view(webp)}});

@@ -96,50 +96,15 @@ TEST(GltfPacked, MeshoptIsReadAsItWas) {
     }
 }
 
-std::vector<float> floats_of(const GltfBuilder& builder, int accessor) {
-    const int view = builder.document["accessors"][static_cast<std::size_t>(accessor)]["bufferView"];
-    const json& found = builder.document["bufferViews"][static_cast<std::size_t>(view)];
-    std::vector<float> values(found["byteLength"].get<std::size_t>() / sizeof(float));
-    std::memcpy(values.data(), builder.binary.data() + found["byteOffset"].get<std::size_t>(), 4 * values.size());
-    return values;
-}
-
-struct Filter {
-    const char* name;
-    std::size_t stride;
-    void (*encode)(void* out, std::size_t count, std::size_t stride, int bits, const float* data);
-    int bits;
-};
-
-// Encodes an accessor's floats, `width` an element, for a filter.
-void filter_accessor(GltfBuilder& builder, int index, std::size_t width, const Filter& filter) {
-    json& accessor = builder.document["accessors"][static_cast<std::size_t>(index)];
-    const std::size_t count = accessor["count"];
-    const std::vector<float> values = floats_of(builder, index);
-    const bool exponential = std::string(filter.name) == "EXPONENTIAL";
-    const std::size_t taken = exponential ? width : 4;
-    std::vector<float> padded(count * taken, 0.0f);
-    for (std::size_t i = 0; i < values.size(); ++i) padded[i / width * taken + i % width] = values[i];
-    std::vector<char> encoded(count * filter.stride);
-    filter.encode(encoded.data(), count, filter.stride, filter.bits, padded.data());
-    tests::PackedData packed = tests::pack_attributes(encoded.data(), count, filter.stride);
-    packed.filter = filter.name;
-    tests::replace_view(builder, accessor["bufferView"], packed, "EXT_meshopt_compression");
-    if (exponential) return;
-    accessor["componentType"] = static_cast<int>(filter.stride == 4 ? tests::i8 : tests::i16);
-    accessor["normalized"] = true;
-    builder.document["bufferViews"][accessor["bufferView"].get<std::size_t>()]["byteStride"] = filter.stride;
-}
-
 TEST(GltfPacked, MeshoptFiltersOfVerticesAreUndone) {
     const model::Mesh expected = tests::load(tests::make_barrel()).mesh;
-    const Filter short_normals{"OCTAHEDRAL", 8, meshopt_encodeFilterOct, 16};
-    const Filter byte_normals{"OCTAHEDRAL", 4, meshopt_encodeFilterOct, 8};
-    for (const Filter& normals : {short_normals, byte_normals}) {
+    const tests::MeshoptFilter short_normals{"OCTAHEDRAL", 8, meshopt_encodeFilterOct, 16};
+    const tests::MeshoptFilter byte_normals{"OCTAHEDRAL", 4, meshopt_encodeFilterOct, 8};
+    for (const tests::MeshoptFilter& normals : {short_normals, byte_normals}) {
         GltfBuilder builder = tests::make_barrel();
         const json attributes = builder.document["meshes"][0]["primitives"][0]["attributes"];
-        filter_accessor(builder, attributes["POSITION"], 3, {"EXPONENTIAL", 12, meshopt_encodeFilterExp, 22});
-        filter_accessor(builder, attributes["NORMAL"], 3, normals);
+        tests::filter_accessor(builder, attributes["POSITION"], 3, {"EXPONENTIAL", 12, meshopt_encodeFilterExp, 22});
+        tests::filter_accessor(builder, attributes["NORMAL"], 3, normals);
         expect_same(load_glb(tests::packed_glb(builder)).mesh, expected, normals.stride == 4 ? 0.03f : 1e-4f);
     }
 }
@@ -151,7 +116,7 @@ TEST(GltfPacked, MeshoptFiltersOfRotationsAreUndone) {
     const int rotations = plain.vec4({0, 0, 0, 1, 0.6f, 0, 0, 0.8f, 0, 0.5f, -0.5f, 0.70710678f});
     clip["samplers"][0]["output"] = rotations;
     GltfBuilder filtered = plain;
-    filter_accessor(filtered, rotations, 4, {"QUATERNION", 8, meshopt_encodeFilterQuat, 16});
+    tests::filter_accessor(filtered, rotations, 4, {"QUATERNION", 8, meshopt_encodeFilterQuat, 16});
     const model::Clip expected = tests::load(plain).clips.at(0);
     const model::Clip got = load_glb(tests::packed_glb(filtered)).clips.at(0);
     ASSERT_EQ(got.channels.size(), 1u);
@@ -289,7 +254,7 @@ std::string warnings_of(const model::Character& character) {
 GltfBuilder with_plain_copy(const GltfBuilder& plain, std::size_t view) {
     GltfBuilder builder = plain;
     const std::vector<float> values =
-        floats_of(plain, plain.document["meshes"][0]["primitives"][0]["attributes"]["POSITION"]);
+        tests::floats_of(plain, plain.document["meshes"][0]["primitives"][0]["attributes"]["POSITION"]);
     tests::replace_view(builder, static_cast<int>(view), tests::pack_attributes(values.data(), values.size() / 3, 12),
                         "EXT_meshopt_compression");
     builder.document["bufferViews"][view].merge_patch(plain.document["bufferViews"][view]);

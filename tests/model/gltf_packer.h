@@ -122,6 +122,42 @@ inline GltfBuilder pack_meshopt(GltfBuilder builder, const std::string& mode,
     return builder;
 }
 
+inline std::vector<float> floats_of(const GltfBuilder& builder, int accessor) {
+    const int view = builder.document["accessors"][static_cast<std::size_t>(accessor)]["bufferView"];
+    const json& found = builder.document["bufferViews"][static_cast<std::size_t>(view)];
+    std::vector<float> values(found["byteLength"].get<std::size_t>() / sizeof(float));
+    std::memcpy(values.data(), builder.binary.data() + found["byteOffset"].get<std::size_t>(), 4 * values.size());
+    return values;
+}
+
+// One of meshopt's encoders.
+struct MeshoptFilter {
+    const char* name;
+    std::size_t stride;
+    void (*encode)(void* out, std::size_t count, std::size_t stride, int bits, const float* data);
+    int bits;
+};
+
+// Encodes an accessor's floats, `width` an element, for a filter.
+inline void filter_accessor(GltfBuilder& builder, int index, std::size_t width, const MeshoptFilter& filter) {
+    json& accessor = builder.document["accessors"][static_cast<std::size_t>(index)];
+    const std::size_t count = accessor["count"];
+    const std::vector<float> values = floats_of(builder, index);
+    const bool exponential = std::string(filter.name) == "EXPONENTIAL";
+    const std::size_t taken = exponential ? width : 4;
+    std::vector<float> padded(count * taken, 0.0f);
+    for (std::size_t i = 0; i < values.size(); ++i) padded[i / width * taken + i % width] = values[i];
+    std::vector<char> encoded(count * filter.stride);
+    filter.encode(encoded.data(), count, filter.stride, filter.bits, padded.data());
+    PackedData packed = pack_attributes(encoded.data(), count, filter.stride);
+    packed.filter = filter.name;
+    replace_view(builder, accessor["bufferView"], packed, "EXT_meshopt_compression");
+    if (exponential) return;
+    accessor["componentType"] = static_cast<int>(filter.stride == 4 ? i8 : i16);
+    accessor["normalized"] = true;
+    builder.document["bufferViews"][accessor["bufferView"].get<std::size_t>()]["byteStride"] = filter.stride;
+}
+
 // With the buffer that compressed views fall back to, without data.
 inline std::string packed_glb(GltfBuilder builder) {
     builder.glb();

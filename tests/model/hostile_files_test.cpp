@@ -18,13 +18,13 @@
 #include <string>
 #include <vector>
 
-#include "model/io/mesh_file.h"
-#include "motion/pose.h"
 #include "pointsample/points_file.h"
 #include "tests/model/draco_packer.h"
 #include "tests/model/gltf_packer.h"
 #include "tests/model/gzip.h"
 #include "tests/model/mesh_text.h"
+#include "tests/model/use_file.h"
+#include "tests/model/whole_files.h"
 #include "tests/pointsample/models.h"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -64,28 +64,7 @@ void use(const std::filesystem::path& path) {
             if (!(point.u >= 0 && point.v >= 0 && point.u + point.v <= 1)) throw std::logic_error("u, v out of range");
         return;
     }
-    const model::Character character = model::load_mesh(path);
-    const model::Mesh& mesh = character.mesh;
-    const std::size_t count = mesh.vertex_count();
-    if (mesh.indices.empty() || mesh.indices.size() % 3 != 0) throw std::logic_error("no triangles");
-    for (const std::size_t size : {mesh.normals.size(), mesh.uvs.size(), mesh.colors.size(), mesh.slots.size(),
-                                   mesh.material_ids.size(), mesh.joints.size(), mesh.weights.size()})
-        if (size != count) throw std::logic_error("lists of different lengths");
-    for (const std::uint32_t index : mesh.indices)
-        if (index >= count) throw std::logic_error("an index out of range");
-    for (const glm::vec3& position : mesh.positions)
-        if (!std::isfinite(position.x) || !std::isfinite(position.y) || !std::isfinite(position.z))
-            throw std::logic_error("a position is no number");
-    for (const std::uint16_t material : mesh.material_ids)
-        if (material >= mesh.materials.size()) throw std::logic_error("a material out of range");
-    for (const model::Material& material : mesh.materials)
-        if (material.texture != model::no_texture && material.texture >= mesh.textures.size())
-            throw std::logic_error("a texture out of range");
-    motion::Pose pose;
-    std::vector<glm::vec3> positions, normals;
-    motion::evaluate_rest(character, pose);
-    for (const model::Clip& clip : character.clips) motion::evaluate(character, clip, 0.3 * clip.duration, pose);
-    motion::skin(mesh, pose, positions, normals);
+    tests::use_mesh_file(path);
 }
 
 class HostileFiles : public testing::Test {
@@ -252,19 +231,12 @@ std::string damaged_text(std::string text, Random& random) {
     return text;
 }
 
-std::string whole_obj() {
-    tests::PlainMesh cube = tests::make_cube();
-    cube.normals = cube.positions;
-    return "mtllib looks.mtl\nvt 0 0\nvt 1 1\n" + tests::obj_of(cube) +
-           "usemtl a\nf 1/1/1 2/2/2 3/1 4//4\nf -1 -2 -3\nusemtl b\nf 1/1 2/2 \\\n 3/1\n";
-}
-
 // --- The formats
 
 TEST_F(HostileFiles, ObjBytes) {
     folder_.write("looks.mtl", "newmtl a\nKd 1 0.5 0\nmap_Kd a.png\nnewmtl b\nKd 0 0 1\n");
     folder_.write("a.png", tests::make_png(2, 1, "\xff\x20\x10\x01\x02\x03"));
-    const std::string whole = whole_obj();
+    const std::string whole = tests::whole_obj();
     Random random(1);
     attempt("damaged.obj", 4000, [&](std::size_t) { return damaged_bytes(whole, random); });
     expect_both(200);
@@ -272,21 +244,21 @@ TEST_F(HostileFiles, ObjBytes) {
 
 TEST_F(HostileFiles, ObjWords) {
     folder_.write("looks.mtl", "newmtl a\nKd 1 0.5 0\n");
-    const std::string whole = whole_obj();
+    const std::string whole = tests::whole_obj();
     Random random(2);
     attempt("damaged.obj", 4000, [&](std::size_t) { return damaged_text(whole, random); });
     expect_both(200);
 }
 
 TEST_F(HostileFiles, ObjTruncated) {
-    const std::string whole = whole_obj();
+    const std::string whole = tests::whole_obj();
     attempt("damaged.obj", whole.size(), [&](std::size_t i) { return whole.substr(0, i); });
 }
 
 // The library and the image beside the file are damaged, the file is whole.
 TEST_F(HostileFiles, ObjMaterials) {
     const std::string library = "newmtl a\nKd 1 0.5 0\nmap_Kd -s 1 1 1 a.png\nnewmtl b\nKd 0 0 1\n";
-    const std::string image = tests::make_png(2, 1, "\xff\x20\x10\x01\x02\x03"), whole = whole_obj();
+    const std::string image = tests::make_png(2, 1, "\xff\x20\x10\x01\x02\x03"), whole = tests::whole_obj();
     Random random(3);
     attempt("whole.obj", 2000, [&](std::size_t i) {
         folder_.write("looks.mtl", i % 2 ? library : damaged_text(library, random));
@@ -349,34 +321,17 @@ TEST_F(HostileFiles, PlyTruncated) {
     }
 }
 
-// All that a PLY can have at once.
-std::string full_ply() {
-    return "ply\nformat ascii 1.0\ncomment TextureFile a.png\nobj_info none\nelement vertex 6\nproperty float x\n"
-           "property float y\nproperty float z\nproperty float nx\nproperty float ny\nproperty float nz\n"
-           "property float s\nproperty float t\nelement face 2\nproperty list uchar int vertex_indices\n"
-           "property list uchar float texcoord\nproperty int texnumber\nproperty uchar red\nproperty uchar green\n"
-           "property uchar blue\nelement tristrips 1\nproperty list int int vertex_indices\nend_header\n"
-           "2 0 0 0 0 1 0 0\n2 1 0 0 0 1 0 1\n1 1 0 0 0 1 1 1\n1 2 0 0 0 1 1 0\n0 2 0 0 nan 1 0 0\n0 0 0 0 0 1 0 0\n"
-           "6 0 1 2 3 4 5 12 0 0 1 0 1 1 0 1 0 0 1 1 0 255 0 0\n3 0 1 2 6 0 0 1 0 1 1 0 0 0 255\n"
-           "7 0 1 2 3 -1 4 5\n";
-}
-
 TEST_F(HostileFiles, FullPly) {
     folder_.write("a.png", tests::make_png(2, 1, "\xff\x20\x10\x01\x02\x03"));
-    const std::string whole = full_ply();
+    const std::string whole = tests::full_ply();
     Random random(21);
     attempt("damaged.ply", 4000,
             [&](std::size_t i) { return i % 2 ? damaged_text(whole, random) : damaged_bytes(whole, random); });
     expect_both(200);
 }
 
-std::string whole_off() {
-    return "COFF\n5 4 0\n# a comment\n0 0 0 255 0 0 255\n2 0 0 0 255 0 255\n2 2 0 0 0 255 255\n1 0.5 0 0.1 0.2 0.3\n"
-           "0 2 0 9 9 9\n5 0 1 2 3 4\n3 0 1 2 255 0 0\n4 0 1 2 4 0.5 0.5 0.5 1\n3 2 1 0 3\n";
-}
-
 TEST_F(HostileFiles, OffBytesAndWords) {
-    const std::string whole = whole_off();
+    const std::string whole = tests::whole_off();
     Random random(22);
     attempt("damaged.off", 4000,
             [&](std::size_t i) { return i % 2 ? damaged_text(whole, random) : damaged_bytes(whole, random); });
@@ -384,23 +339,8 @@ TEST_F(HostileFiles, OffBytesAndWords) {
     attempt("damaged.off", whole.size(), [&](std::size_t i) { return whole.substr(0, i); });
 }
 
-std::string binary_stl() {
-    std::string bytes = "made by a test COLOR=rgba";
-    bytes.resize(80, ' ');
-    bytes += std::string("\x03\0\0\0", 4);
-    for (int i = 0; i < 3; ++i) {
-        const float numbers[12] = {0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, static_cast<float>(i)};
-        bytes.append(reinterpret_cast<const char*>(numbers), sizeof numbers);
-        bytes.append("\x1f\x80", 2);
-    }
-    return bytes;
-}
-
 TEST_F(HostileFiles, Stl) {
-    const std::string binary = binary_stl();
-    const std::string facet =
-        "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
-    const std::string text = "solid a\n" + facet + facet + "endsolid a\n";
+    const std::string binary = tests::binary_stl(), text = tests::text_stl();
     Random random(23);
     attempt("damaged.stl", 4000, [&](std::size_t i) {
         return i % 3 == 0   ? damaged_bytes(binary, random)
@@ -413,12 +353,12 @@ TEST_F(HostileFiles, Stl) {
 }
 
 TEST_F(HostileFiles, Packed) {
-    const std::string packed = tests::gzip(whole_obj());
+    const std::string packed = tests::gzip(tests::whole_obj());
     Random random(24);
     attempt("damaged.obj.gz", 2000, [&](std::size_t) { return damaged_bytes(packed, random); });
     EXPECT_GE(progress_->refused, 1000u);  // a checksum
     attempt("damaged.obj.gz", packed.size(), [&](std::size_t i) { return packed.substr(0, i); });
-    attempt("inside.ply.gz", 500, [&](std::size_t) { return tests::gzip(damaged_text(full_ply(), random)); });
+    attempt("inside.ply.gz", 500, [&](std::size_t) { return tests::gzip(damaged_text(tests::full_ply(), random)); });
     expect_both(50);
 }
 

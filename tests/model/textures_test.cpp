@@ -1,7 +1,6 @@
 // Textures that meshes name: found wherever they are, read or said to be lost, and scaled down where they are too
 // large.
 #include <gtest/gtest.h>
-#include <webp/encode.h>
 
 #include <filesystem>
 #include <string>
@@ -14,6 +13,7 @@
 #include "model/srgb.h"
 #include "tests/model/gltf_builder.h"
 #include "tests/model/mesh_text.h"
+#include "tests/model/webp.h"
 
 namespace {
 
@@ -21,14 +21,6 @@ namespace fs = std::filesystem;
 
 std::span<const unsigned char> bytes_of(const std::string& text) {
     return {reinterpret_cast<const unsigned char*>(text.data()), text.size()};
-}
-
-std::string make_webp(int width, int height, const std::vector<std::uint8_t>& rgba) {
-    std::uint8_t* bytes = nullptr;
-    const std::size_t size = WebPEncodeLosslessRGBA(rgba.data(), width, height, 4 * width, &bytes);
-    const std::string webp(reinterpret_cast<const char*>(bytes), size);
-    WebPFree(bytes);
-    return webp;
 }
 
 // The size of a picture is all that its first bytes say.
@@ -104,7 +96,7 @@ TEST_F(Textures, AreReadOnceAFile) {
 
 TEST_F(Textures, AreReadAsWebp) {
     const std::vector<std::uint8_t> rgba{10, 200, 30, 255, 1, 2, 3, 128};
-    const model::Texture texture = model::decode_image(bytes_of(make_webp(2, 1, rgba)));
+    const model::Texture texture = model::decode_image(bytes_of(tests::make_webp(2, 1, rgba)));
     ASSERT_EQ(texture.width, 2);
     ASSERT_EQ(texture.height, 1);
     EXPECT_EQ(texture.texels[0], glm::u8vec4(10, 200, 30, 255));
@@ -112,7 +104,7 @@ TEST_F(Textures, AreReadAsWebp) {
 }
 
 TEST_F(Textures, ThatCantBeHadAreSaid) {
-    const std::string webp = make_webp(2, 1, {1, 2, 3, 4, 5, 6, 7, 8});
+    const std::string webp = tests::make_webp(2, 1, {1, 2, 3, 4, 5, 6, 7, 8});
     folder_.write("cut.png", tests::make_png(9, 9, std::string(243, 'x')).substr(0, 90));
     folder_.write("cut.webp", webp.substr(0, webp.size() - 6));
     folder_.write("a.tif", std::string("II*\0\x08\0\0\0", 8));
