@@ -295,6 +295,7 @@ void split_at_edges(GltfFile& file, const Accessor& positions, Indices& triangle
 
 using InfluenceSet = std::pair<Accessor, Accessor>;  // joints and weights, four a vertex
 constexpr std::size_t most_sets = 16;                // files have two or three
+constexpr float heaviest = 1e30f;                    // all weights of a vertex have a sum
 
 // Of one vertex.
 struct Influences {
@@ -509,7 +510,7 @@ private:
         found.count = 0;
         for (const auto& [joints, weights] : sets) {
             for (int i = 0; i < 4; ++i) {
-                const float weight = weights.finite(vertex, i);
+                const float weight = std::min(weights.finite(vertex, i), heaviest);
                 const std::uint32_t joint = joints.index(vertex, i);
                 if (!(weight > 0.0f)) continue;
                 if (joint >= attachment.joints.size())

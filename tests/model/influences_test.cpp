@@ -156,6 +156,16 @@ TEST(Influences, WhatWeighsNextToNothingIsLeftOutSilently) {
     EXPECT_TRUE(load(file_of(cloth)).warnings.empty());
 }
 
+TEST(Influences, WeightsBeyondAnySumAreAsGoodAsOthers) {
+    Cloth cloth = cloth_of(1, 8, 7);
+    for (auto& of : cloth.influences) {
+        for (auto& [joint, weight] : of) weight = 3e38f;
+        const auto once = of;
+        of.insert(of.end(), once.begin(), once.end());
+    }
+    expect_exact(cloth, posed(load(file_of(cloth))));
+}
+
 TEST(Influences, SecondSidesHangAsTheFirst) {
     const Cloth cloth = cloth_of(5, 8, 6);
     GltfBuilder builder = file_of(cloth);
