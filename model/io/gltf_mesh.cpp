@@ -105,8 +105,12 @@ tinygltf::TextureInfo texture_info(const tinygltf::Value& object, const char* na
     tinygltf::TextureInfo info;
     if (!object.Has(name) || !object.Get(name).IsObject()) return info;
     const tinygltf::Value& value = object.Get(name);
-    info.index = static_cast<int>(number_of(value, "index", -1));
-    info.texCoord = static_cast<int>(number_of(value, "texCoord", 0));
+    const auto whole = [&](const char* key, float fallback) {
+        constexpr float most = 1e6f;  // more than any file has
+        return static_cast<int>(std::clamp(number_of(value, key, fallback), -1.0f, most));
+    };
+    info.index = whole("index", -1);
+    info.texCoord = whole("texCoord", 0);
     if (value.Has("extensions") && value.Get("extensions").IsObject())
         for (const std::string& extension : value.Get("extensions").Keys())
             info.extensions[extension] = value.Get("extensions").Get(extension);
@@ -262,10 +266,12 @@ glm::vec3 flat_normal(const std::array<glm::vec3, 3>& corners) {
     return length > 0 && std::isfinite(length) ? glm::vec3(normal / length) : glm::vec3(0.0f);
 }
 
-// Gives a vertex between triangles of other directions one place in `used` for each of them, so that all are flat.
+// Gives a vertex between triangles of other directions one place in `used` for each of them, so that all are flat. A
+// vertex's list is looked through only so far: of thousands of directions one may come twice.
 void split_at_edges(GltfFile& file, const Accessor& positions, Indices& triangles, Indices& used) {
     constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
     constexpr float same = 1e-5f;  // between unit normals
+    constexpr int patience = 64;
     std::vector<glm::vec3> normals(used.size(), glm::vec3(0.0f));
     Indices next(used.size(), none);  // the same vertex, for another direction
     std::vector<bool> taken(used.size(), false);
@@ -276,13 +282,16 @@ void split_at_edges(GltfFile& file, const Accessor& positions, Indices& triangle
         if (normal == glm::vec3(0.0f)) continue;
         for (std::size_t k = 0; k < 3; ++k) {
             std::uint32_t& at = triangles[i + k];
+            const std::uint32_t first = at;
+            int tries = 0;
             while (taken[at] && glm::distance(normals[at], normal) > same) {
-                if (next[at] == none) {
+                const bool give_up = ++tries == patience;
+                if (give_up || next[at] == none) {
+                    if (give_up) at = first;
                     file.budget.spend(1);
-                    next[at] = static_cast<std::uint32_t>(used.size());
+                    next.push_back(std::exchange(next[at], static_cast<std::uint32_t>(used.size())));
                     used.push_back(used[at]);
                     normals.emplace_back(0.0f);
-                    next.push_back(none);
                     taken.push_back(false);
                 }
                 at = next[at];

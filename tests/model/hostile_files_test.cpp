@@ -482,6 +482,29 @@ TEST_F(HostileFiles, GltfLies) {
     EXPECT_EQ(progress_->loaded, 0u);
 }
 
+// One vertex of thousands of flat triangles that face elsewhere, and one of these a million times: nothing may look
+// through all of them for each.
+TEST_F(HostileFiles, GltfHub) {
+    constexpr int rim = 50'000, repeats = 1'000'000;
+    Random random(25);
+    std::vector<float> positions{0, 0, 0};
+    std::vector<std::uint16_t> corners;
+    for (int i = 0; i < rim; ++i) {
+        const float angle = 6.2831853f * static_cast<float>(i) / rim;
+        positions.insert(positions.end(), {std::cos(angle), std::sin(angle), static_cast<float>(random() % 1000)});
+    }
+    for (int i = 1; i < rim + repeats; ++i) {
+        const auto corner = static_cast<std::uint16_t>(std::min(i, rim - 1));
+        corners.insert(corners.end(), {0, corner, static_cast<std::uint16_t>(corner + 1)});
+    }
+    tests::GltfBuilder builder;
+    builder.add_mesh({{"POSITION", builder.vec3(positions)}})["indices"] = builder.indices(corners);
+    builder.node(0)["mesh"] = 0;
+    const std::string whole = builder.glb();
+    attempt("hub.glb", 1, [&](std::size_t) { return whole; });
+    EXPECT_EQ(progress_->loaded, 1u);
+}
+
 // A header may claim no more than the file holds, whatever else is sound.
 TEST_F(HostileFiles, SmallFilesCantClaimMuchMemory) {
     std::vector<std::string> files;
