@@ -50,6 +50,22 @@ const char* name_of_unread(std::span<const unsigned char> bytes) {
     return nullptr;
 }
 
+// A chunk of a PNG that its file has not all of: stb_image would ask for as much memory as the chunk claims.
+bool has_cut_chunk(std::span<const unsigned char> bytes) {
+    using namespace std::string_view_literals;
+    constexpr std::string_view signature = "\x89PNG\r\n\x1a\n"sv;
+    constexpr std::size_t head = 8, checksum = 4;  // [bytes] before a chunk's data and behind
+    if (!begins_with(bytes, signature)) return false;
+    std::size_t at = signature.size();
+    while (bytes.size() - at >= head && !begins_with(bytes, "IEND", at + 4)) {
+        std::size_t length = 0;
+        for (std::size_t i = 0; i < 4; ++i) length = length << 8 | bytes[at + i];
+        if (length > bytes.size() - at - head) return true;
+        at = std::min(at + head + length + checksum, bytes.size());
+    }
+    return false;
+}
+
 using Pixels = std::unique_ptr<unsigned char, void (*)(void*)>;
 
 Pixels decode_webp(std::span<const unsigned char> bytes, int& width, int& height) {
@@ -66,6 +82,7 @@ Pixels decode_others(std::span<const unsigned char> bytes, int& width, int& heig
     if (!stbi_info_from_memory(bytes.data(), size, &width, &height, &channels) || width < 0 || height < 0)
         throw ImageError("is in an unknown format");
     check_size(static_cast<std::size_t>(width), static_cast<std::size_t>(height), bytes.size());
+    if (has_cut_chunk(bytes)) throw ImageError("is damaged");
     return {stbi_load_from_memory(bytes.data(), size, &width, &height, &channels, 4), stbi_image_free};
 }
 

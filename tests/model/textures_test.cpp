@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -132,6 +133,22 @@ TEST_F(Textures, ThatCantBeHadAreSaid) {
         EXPECT_EQ(textures.of_file(name), model::no_texture) << name;
         EXPECT_EQ(tests::texts(warnings), std::vector<std::string>{std::string(said) + ": '" + name + "'"});
     }
+}
+
+std::size_t most_addresses() {  // [KiB] so far
+    std::ifstream status("/proc/self/status");
+    for (std::string word; status >> word;)
+        if (word == "VmPeak:" && status >> word) return std::stoul(word);
+    return 0;
+}
+
+// What isn't touched counts too: where memory is limited it is refused.
+TEST_F(Textures, WhoseChunksAreCutAskForNoMemory) {
+    std::string png = tests::make_png(2, 1, "abcxyz");
+    png.replace(png.find("IDAT") - 4, 4, std::string("\x3f\0\0\0", 4));
+    const std::size_t before = most_addresses();
+    EXPECT_THROW(model::decode_image(bytes_of(png)), model::ImageError);
+    EXPECT_LT(most_addresses() - before, 64u << 10);
 }
 
 TEST_F(Textures, BeyondThe255thAreLeftOut) {
