@@ -64,6 +64,12 @@ Chunks chunks_of(const std::vector<unsigned char>& bytes) {
     return chunks;
 }
 
+// Up to the first zero: writers pad with them, and nlohmann's parser, which checks it, reads no further.
+std::string_view text_of(const std::vector<unsigned char>& bytes, const Stretch& json) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()) + json.begin, json.size);
+    return text.substr(0, text.find('\0'));
+}
+
 std::string first_line(const std::string& text) {
     constexpr std::size_t longest = 80;
     return text.substr(0, std::min(text.find('\n'), longest));
@@ -139,7 +145,7 @@ GltfFile open_gltf(const fs::path& path, Warnings& warnings) {
     {
         std::vector<unsigned char> bytes = read_file(path, readable, most_file_bytes);
         const Chunks chunks = chunks_of(bytes);
-        const std::string_view text(reinterpret_cast<const char*>(bytes.data()) + chunks.json.begin, chunks.json.size);
+        const std::string_view text = text_of(bytes, chunks.json);
         check_gltf_json(text);
         GltfDocument document(text, warnings);
         parse_document(document, file.model, warnings);

@@ -122,6 +122,14 @@ TEST(GltfFiles, ChunksOfOthersMeanNothing) {
     EXPECT_EQ(load("a.vrm", glb_of(chunk("JSON", inside))).mesh.triangle_count(), 2u);
 }
 
+TEST(GltfFiles, JsonEndsAtItsFirstZero) {
+    const std::string zero(1, '\0'), square = square_at("data:;base64," + base64(tests::make_square().binary));
+    EXPECT_EQ(load("a.gltf", square + zero + zero).mesh.triangle_count(), 2u);
+    EXPECT_EQ(load("a.glb", glb_of(chunk("JSON", square + zero + "\"open"))).mesh.triangle_count(), 2u);
+    for (const std::string& text : {"4" + zero + "{\"open", "4" + zero + "{x:1}", "null" + zero + ":"})
+        EXPECT_TRUE(contains(complaint(text), "no object")) << text;
+}
+
 TEST(GltfFiles, ChunksLongerThanTheFileAreRefused) {
     GltfBuilder builder = tests::make_square();
     builder.glb();
