@@ -82,9 +82,10 @@ private:
     const motion::PoseTable& poses() const { return troupe_.poses[0]; }
     float scale() const { return person_height / poses().rest_height; }
 
-    // Everybody at one scale, unless they need more room.
+    // Everybody at one scale, unless they need more room. From afar: each point covers what one in the body's middle
+    // does, which is too little at a long body's near end.
     render::View view_of(const Part& part, bool from_the_side) const {
-        constexpr double away = 9, eye = 2.2, high = 2.6, middle = 1.05;  // [m]
+        constexpr double away = 45, eye = 6.8, high = 2.6, middle = 1.05;  // [m]
         constexpr double wide = high * picture_width / picture_height;
         const motion::Bounds& box = poses().clip_boxes[part.clip];
         const glm::dvec3 far = scale() * glm::max(glm::abs(box.min), glm::abs(box.max));

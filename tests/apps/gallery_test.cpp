@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <stb_image.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <fstream>
@@ -12,18 +13,31 @@
 
 namespace {
 
-// A cuboid of 0.5 x 1.75 x 0.3 m, in an OBJ file.
-std::string statue(const tests::Directory& directory, const std::string& name) {
+// What an OBJ file says behind each vertex and before the faces.
+struct Looks {
+    std::string vertex, faces;
+};
+
+// A cuboid of `size` [m] in an OBJ file.
+std::string cuboid(const tests::Directory& directory, const std::string& name, std::array<double, 3> size,
+                   const Looks& looks) {
     const std::string path = directory / name;
     std::ofstream file(path);
     for (int corner = 0; corner < 8; ++corner)
-        file << "v " << 0.5 * (corner & 1) - 0.25 << ' ' << 1.75 * (corner >> 1 & 1) << ' '
-             << 0.3 * (corner >> 2) - 0.15 << '\n';
+        file << "v " << size[0] * ((corner & 1) - 0.5) << ' ' << size[1] * (corner >> 1 & 1) << ' '
+             << size[2] * ((corner >> 2) - 0.5) << looks.vertex << '\n';
+    file << looks.faces;
     for (const auto& [a, b, c, d] :
          {std::array{1, 3, 4, 2}, {5, 6, 8, 7}, {1, 5, 7, 3}, {2, 4, 8, 6}, {1, 2, 6, 5}, {3, 7, 8, 4}})
         file << "f " << a << ' ' << b << ' ' << c << ' ' << d << '\n';
     return path;
 }
+
+std::string statue(const tests::Directory& directory, const std::string& name) {
+    return cuboid(directory, name, {0.5, 1.75, 0.3}, {});
+}
+
+constexpr int picture_width = 100, picture_height = 150;  // [px]
 
 struct Sheet {
     int width = 0, height = 0;
@@ -44,6 +58,19 @@ struct Sheet {
         for (std::size_t i = std::size_t{3} * width * top; i < std::size_t{3} * width * bottom; i += 3)
             count += pixels[i] != pixels[0] || pixels[i + 1] != pixels[1] || pixels[i + 2] != pixels[2];
         return count;
+    }
+
+    // Pixels of the first picture, triangles from the front, that the second, points, has otherwise.
+    int off_in_points() const {
+        constexpr int left = 4, top = 32;  // [px] of the first picture
+        int off = 0;
+        for (int y = top; y < std::min(top + picture_height, height); ++y) {
+            for (int x = left; x < left + picture_width; ++x) {
+                const auto at = [&](int from) { return pixels[std::size_t{3} * (y * width + from) + 2]; };
+                off += std::abs(at(x) - at(x + picture_width)) > 24;
+            }
+        }
+        return off;
     }
 };
 
@@ -66,19 +93,21 @@ TEST(Gallery, DrawsEachFileInARowOfItsOwn) {
 
 // Of few triangles too: a row has front as triangles and as points first.
 TEST(Gallery, PointsLookLikeTheTriangles) {
-    constexpr int left = 4, top = 32, width = 100, height = 150;  // [px] of the first picture
     const tests::Directory directory;
     ASSERT_EQ(draw(statue(directory, "statue.obj"), directory / "sheet.png").code, 0);
     const Sheet sheet(directory / "sheet.png");
-    ASSERT_GE(sheet.height, top + height);
-    int off = 0;
-    for (int y = top; y < top + height; ++y) {
-        for (int x = left; x < left + width; ++x) {
-            const auto at = [&](int from) { return sheet.pixels[std::size_t{3} * (y * sheet.width + from) + 2]; };
-            off += std::abs(at(x) - at(x + width)) > 24;
-        }
-    }
-    EXPECT_LT(off, width * height / 50);
+    ASSERT_GE(sheet.height, picture_height);
+    EXPECT_LT(sheet.off_in_points(), picture_width * picture_height / 50);
+}
+
+// Dark before the sky, so that holes are seen.
+TEST(Gallery, PointsCoverTheNearEndOfALongBody) {
+    const tests::Directory directory;
+    const std::string file = cuboid(directory, "long.obj", {0.6, 1.75, 2}, {" 0.2 0.1 0.05", "s off\n"});
+    ASSERT_EQ(draw(file, directory / "sheet.png").code, 0);
+    const Sheet sheet(directory / "sheet.png");
+    ASSERT_GE(sheet.height, picture_height);
+    EXPECT_LT(sheet.off_in_points(), picture_width * picture_height / 7);
 }
 
 TEST(Gallery, IsTheSameEveryTime) {
