@@ -35,8 +35,7 @@ Rerun EarlyRun::run(const sfsm::simulate::Contestant& law, const sfsm::TargetSch
             if (is_given_up_) return rerun;
             row.target_ms = targets.at(row.frame);
             row.frame_ms = ms;
-            const sfsm::Replayed replayed = replaying.next(row);
-            rerun.frames.push_back({row.target_ms, ms, replayed.predicted_ms, replayed.decision});
+            rerun.frames.push_back(next_frame(replaying, row));
             ++row.frame;
         }
     }

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iomanip>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <utility>
 #include <vector>
 
+#include "apps/table.h"
 #include "sfsm/number_text.h"
 #include "sfsm/report/numbers.h"
 
@@ -58,49 +57,12 @@ Json bottleneck_json(const sfsm::Bottleneck& bottleneck) {
             {"neither", number(bottleneck.neither)}};
 }
 
-std::string fixed(double value, int digits) {
-    if (!std::isfinite(value)) return "-";
-    std::ostringstream text;
-    text << std::fixed << std::setprecision(digits) << value;
-    return text.str();
-}
-
-// Characters of UTF-8.
-std::size_t width_of(std::string_view text) {
-    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
-}
-
 // Of a long name the end, which tells files apart better than the beginning.
 std::string column_name(std::string_view name) {
     constexpr std::size_t longest = 28;
     if (width_of(name) <= longest) return std::string(name);
     while (width_of(name) > longest - 3 || (name.front() & 0xC0) == 0x80) name.remove_prefix(1);
     return "..." + std::string(name);
-}
-
-struct TableLine {
-    std::string label;
-    std::vector<std::string> cells;
-};
-
-// The labels to the left, all else to the right.
-void write_table(std::ostream& out, const std::vector<TableLine>& lines) {
-    constexpr std::size_t narrowest = 8;
-    std::size_t label_width = 0;
-    std::vector<std::size_t> widths;
-    for (const TableLine& line : lines) {
-        label_width = std::max(label_width, width_of(line.label));
-        widths.resize(std::max(widths.size(), line.cells.size()), narrowest);
-        for (std::size_t i = 0; i < line.cells.size(); ++i) widths[i] = std::max(widths[i], width_of(line.cells[i]));
-    }
-    const auto blanks = [](std::size_t count) { return std::string(count, ' '); };
-    for (const TableLine& line : lines) {
-        out << line.label;
-        if (!line.cells.empty()) out << blanks(label_width - width_of(line.label));
-        for (std::size_t i = 0; i < line.cells.size(); ++i)
-            out << blanks(2 + widths[i] - width_of(line.cells[i])) << line.cells[i];
-        out << '\n';
-    }
 }
 
 std::string csv_field(std::string_view text) {

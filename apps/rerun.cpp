@@ -13,15 +13,17 @@ std::unique_ptr<sfsm::Controller> make_law(const sim::Contestant& law, sfsm::Dra
     return law.make(nowhere);
 }
 
+RerunFrame next_frame(sfsm::Replaying& replaying, const sfsm::TraceRow& row) {
+    const sfsm::Replayed replayed = replaying.next(row);
+    return {row.target_ms, row.frame_ms, replayed.predicted_ms, replayed.decision};
+}
+
 Rerun rerun_open(const sim::Contestant& law, const sfsm::RunRows& recorded, int delay, sfsm::Drawing drawing) {
     const std::unique_ptr<sfsm::Controller> controller = make_law(law, drawing);
-    const std::vector<sfsm::Replayed> replayed = sfsm::replay(*controller, recorded, delay);
+    sfsm::Replaying replaying(*controller, delay);
     Rerun rerun{law.name, {}, {}};
     rerun.frames.reserve(recorded.count);
-    for (std::size_t i = 0; i < recorded.count; ++i) {
-        const sfsm::TraceRow& row = recorded.at(i);
-        rerun.frames.push_back({row.target_ms, row.frame_ms, replayed[i].predicted_ms, replayed[i].decision});
-    }
+    for (std::size_t i = 0; i < recorded.count; ++i) rerun.frames.push_back(next_frame(replaying, recorded.at(i)));
     return rerun;
 }
 

@@ -29,6 +29,9 @@ struct Rerun {
     std::optional<sfsm::simulate::Metrics> metrics;  // of a closed loop
 };
 
+// What the law decides at the row.
+RerunFrame next_frame(sfsm::Replaying& replaying, const sfsm::TraceRow& row);
+
 // Each recorded time is taken for the time of the law's own decision. `law` is none that looks ahead.
 Rerun rerun_open(const sfsm::simulate::Contestant& law, const sfsm::RunRows& recorded, int delay,
                  sfsm::Drawing drawing);

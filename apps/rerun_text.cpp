@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "apps/recording_text.h"
+#include "apps/table.h"
 #include "sfsm/summary.h"
 
 namespace apps {
@@ -43,13 +44,6 @@ void add_metrics(std::vector<sfsm::Score>& scores, const Rerun& rerun) {
     scores.push_back({"detail of the best", "%", quality, 1, Better::more});
     scores.push_back({"worst second over by 5 %", "%", 100 * metrics.worst_second, 1, Better::less});
     scores.push_back({"late", "ms/s", metrics.hitch_ms_per_s, 1, Better::less});
-}
-
-std::string value_text(const sfsm::Score& score) {
-    if (!std::isfinite(score.value)) return "-";
-    std::ostringstream text;
-    text << std::fixed << std::setprecision(score.digits) << score.value;
-    return text.str();
 }
 
 void add_metrics(Json& json, const sim::Metrics& metrics) {
@@ -102,26 +96,15 @@ std::vector<sfsm::ReportRun> report_runs(std::span<const Rerun> reruns) {
 }
 
 void write_scores(std::ostream& out, std::span<const sfsm::ReportRun> runs) {
-    const auto label = [](const sfsm::Score& score) {
-        return score.name + (score.unit.empty() ? "" : " [" + score.unit + "]");
-    };
-    std::size_t label_width = 0;
-    for (const sfsm::Score& score : runs.front().scores) label_width = std::max(label_width, label(score).size());
-    const auto begin_line = [&](const std::string& text) {
-        out << std::left << std::setw(static_cast<int>(label_width)) << text << std::right;
-    };
-    constexpr std::size_t narrowest = 8;
-    const auto put = [&](const sfsm::ReportRun& run, const std::string& text) {
-        out << "  " << std::setw(static_cast<int>(std::max(run.name.size(), narrowest))) << text;
-    };
-    begin_line("");
-    for (const sfsm::ReportRun& run : runs) put(run, run.name);
+    std::vector<TableLine> lines(1);
+    for (const sfsm::ReportRun& run : runs) lines[0].cells.push_back(run.name);
     for (std::size_t i = 0; i < runs.front().scores.size(); ++i) {
-        out << '\n';
-        begin_line(label(runs.front().scores[i]));
-        for (const sfsm::ReportRun& run : runs) put(run, value_text(run.scores[i]));
+        const sfsm::Score& score = runs.front().scores[i];
+        TableLine& line = lines.emplace_back();
+        line.label = score.name + (score.unit.empty() ? "" : " [" + score.unit + "]");
+        for (const sfsm::ReportRun& run : runs) line.cells.push_back(fixed(run.scores[i].value, run.scores[i].digits));
     }
-    out << '\n';
+    write_table(out, lines);
 }
 
 Json rerun_json(const Rerun& rerun) {

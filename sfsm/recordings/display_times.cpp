@@ -7,12 +7,11 @@
 namespace sfsm {
 namespace {
 
-constexpr double longest_ms = 600'000;
 constexpr double untold = DisplayRow::untold;
 
 // A time that a display can have shown something; else NaN.
 double usable_display(double ms) {
-    return ms > 0 && ms <= longest_ms ? ms : untold;
+    return ms > 0 && ms <= longest_frame_ms ? ms : untold;
 }
 
 }  // namespace
@@ -68,7 +67,7 @@ void DisplayTimes::Clock::add(double start_ms, double frame_ms, std::int64_t fra
     }
     if (!displays_ms) return;
     const double error_ms = start_ms - std::exchange(shown_ms, start_ms) - *displays_ms;
-    if (!(std::abs(error_ms) <= longest_ms)) return;
+    if (!(std::abs(error_ms) <= longest_frame_ms)) return;
     errors.resize(static_cast<std::size_t>(frame), FrameRecord().animation_error_ms);
     errors.push_back(static_cast<float>(error_ms));
 }

@@ -8,6 +8,8 @@
 
 namespace sfsm {
 
+inline constexpr double longest_frame_ms = 600'000;  // that a frame or a part of it can take: 10 minutes
+
 struct FrameRecord {
     static constexpr double untold = std::numeric_limits<double>::quiet_NaN();
 

@@ -7,15 +7,13 @@
 namespace sfsm {
 namespace {
 
-constexpr double longest_ms = 600'000;
-
 std::string first_in(const Tally& tally, std::string_view place) {
     return (tally.count == 1 ? " (in " : " (the first in ") + std::string(place) + ' ' + std::to_string(tally.first) +
            ')';
 }
 
 double part(double told, StreamFrames& stream, std::int64_t place) {
-    if (std::isnan(told) || (told >= 0 && told <= longest_ms)) return told;
+    if (std::isnan(told) || (told >= 0 && told <= longest_frame_ms)) return told;
     stream.unusable_parts.add(place);
     return FrameRecord::untold;
 }
@@ -81,7 +79,7 @@ void add_frame(StreamFrames& stream, FrameRecord frame, std::size_t present) {
 void add_generated(StreamFrames& stream, double ms, std::size_t present) {
     GeneratedFrames& generated = stream.generated;
     if (present != 0 && present == generated.present) return;
-    generated.last_ms = ms > 0 && ms <= longest_ms ? ms : 0;
+    generated.last_ms = ms > 0 && ms <= longest_frame_ms ? ms : 0;
     generated.waiting_ms += generated.last_ms;
     generated.present = present;
 }
@@ -89,13 +87,13 @@ void add_generated(StreamFrames& stream, double ms, std::size_t present) {
 FrameRecord usable_frame(FrameRecord told, StreamFrames& stream, std::int64_t place) {
     if (std::isnan(told.frame_ms)) {
         stream.untold.add(place);
-    } else if (!(told.frame_ms > 0 && told.frame_ms <= longest_ms)) {
+    } else if (!(told.frame_ms > 0 && told.frame_ms <= longest_frame_ms)) {
         stream.unusable.add(place);
         told.frame_ms = FrameRecord::untold;
     }
     told.cpu_ms = part(told.cpu_ms, stream, place);
     told.gpu_ms = part(told.gpu_ms, stream, place);
-    const bool is_error = std::abs(told.animation_error_ms) <= longest_ms;
+    const bool is_error = std::abs(told.animation_error_ms) <= longest_frame_ms;
     told.animation_error_ms = detail(told.animation_error_ms, is_error, stream, place);
     const bool is_count = told.compilations >= 0 && std::isfinite(told.compilations);
     told.compilations = detail(told.compilations, is_count, stream, place);

@@ -11,6 +11,7 @@
 #include "sfsm/report/markup.h"
 #include "sfsm/report/numbers.h"
 #include "sfsm/report/plot.h"
+#include "sfsm/report/series.h"
 
 namespace sfsm::report {
 namespace {
@@ -98,17 +99,9 @@ void write_thinned(std::ostream& out, const char* name, const std::vector<float>
 }
 
 template <class Value>
-std::vector<float> field_of(std::span<const FrameRecord> frames, Value FrameRecord::*field) {
-    std::vector<float> values;
-    values.reserve(frames.size());
-    for (const FrameRecord& frame : frames) values.push_back(static_cast<float>(frame.*field));
-    return values;
-}
-
-template <class Value>
 void write_told(std::ostream& out, const char* name, std::span<const FrameRecord> frames, Value FrameRecord::*field) {
-    const std::vector<float> series = field_of(frames, field);
-    if (std::none_of(series.begin(), series.end(), [](float value) { return std::isfinite(value); })) return;
+    const std::vector<float> series = series_of(frames, field);
+    if (!is_told(series)) return;
     const double step = width_of(series.size()) == 1 ? fine_quantum : quantum;
     write_thinned(out << ',', name, series,
                   [&](std::ostream& to, const std::vector<float>& values) { write_packed(to, values, step); });
@@ -120,7 +113,7 @@ void write_recording(std::ostream& out, const ReportedRecording& recording) {
         << ", \"seconds\": " << number_text(recording.figures.seconds) << ", \"series\": {";
     out << "\n\"frame_ms\": {\"width\": 1, \"low\": ";
     const bool is_fine = std::ssize(frames) <= most_fine;
-    write_packed(out, field_of(frames, &FrameRecord::frame_ms), is_fine ? fine_quantum : quantum);
+    write_packed(out, series_of(frames, &FrameRecord::frame_ms), is_fine ? fine_quantum : quantum);
     out << '}';
     write_told(out, "display_ms", frames, &FrameRecord::display_ms);
     write_told(out, "animation_error_ms", frames, &FrameRecord::animation_error_ms);
@@ -132,14 +125,6 @@ void write_recording(std::ostream& out, const ReportedRecording& recording) {
         append_bytes(causes, static_cast<std::uint8_t>(stutter.cause));
     }
     out << "},\n\"stutters\": {\"frames\": \"" << base64(places) << "\", \"causes\": \"" << base64(causes) << "\"}}";
-}
-
-template <class Field>
-auto field_of(const std::vector<ReportFrame>& frames, Field ReportFrame::*field) {
-    std::vector<Field> values;
-    values.reserve(frames.size());
-    for (const ReportFrame& frame : frames) values.push_back(frame.*field);
-    return values;
 }
 
 // Of each stretch the share of frames in a state, in 1/255.
@@ -160,21 +145,14 @@ void write_states(std::ostream& out, const std::vector<ReportFrame>& frames) {
     const std::int64_t width = width_of(frames.size());
     out << ",\n\"state\": {\"width\": " << width;
     if (width == 1) {
-        write_values(out << ", \"low\": ", field_of(frames, &ReportFrame::state));
+        std::vector<State> states;
+        for (const ReportFrame& frame : frames) states.push_back(frame.state);
+        write_values(out << ", \"low\": ", states);
     } else {
         out << ", \"slowed\": \"" << base64(shares_of(frames, State::slowed)) << "\", \"points\": \""
             << base64(shares_of(frames, State::points)) << '"';
     }
     out << '}';
-}
-
-// D only where it means something.
-std::vector<float> distances_of(const std::vector<ReportFrame>& frames) {
-    std::vector<float> values = field_of(frames, &ReportFrame::motion_distance);
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-        if (frames[i].state == State::original) values[i] = std::numeric_limits<float>::quiet_NaN();
-    }
-    return values;
 }
 
 void write_run_series(std::ostream& out, const char* name, const std::vector<float>& series) {
@@ -193,14 +171,14 @@ void write_times(std::ostream& out, const std::vector<float>& times) {
 void write_run(std::ostream& out, const ReportRun& run) {
     out << "{\"name\": " << json_string(run.name) << ", \"frames\": " << std::to_string(run.frames.size())
         << ", \"series\": {";
-    write_run_series(out, "target_ms", field_of(run.frames, &ReportFrame::target_ms));
-    write_times(out << ',', field_of(run.frames, &ReportFrame::frame_ms));
-    write_run_series(out << ',', "predicted_ms", field_of(run.frames, &ReportFrame::predicted_ms));
-    write_run_series(out << ',', "splat_size", field_of(run.frames, &ReportFrame::splat_size));
-    write_run_series(out << ',', "motion_distance", distances_of(run.frames));
+    write_run_series(out, "target_ms", series_of(run.frames, &ReportFrame::target_ms));
+    write_times(out << ',', series_of(run.frames, &ReportFrame::frame_ms));
+    write_run_series(out << ',', "predicted_ms", series_of(run.frames, &ReportFrame::predicted_ms));
+    write_run_series(out << ',', "splat_size", series_of(run.frames, &ReportFrame::splat_size));
+    write_run_series(out << ',', "motion_distance", series_of(run.frames, &ReportFrame::motion_distance));
     write_states(out, run.frames);
     const bool is_by_rate = std::ranges::any_of(run.frames, [](const ReportFrame& frame) { return frame.rate > 0; });
-    if (is_by_rate) write_run_series(out << ',', "rate", field_of(run.frames, &ReportFrame::rate));
+    if (is_by_rate) write_run_series(out << ',', "rate", series_of(run.frames, &ReportFrame::rate));
     out << "}}";
 }
 

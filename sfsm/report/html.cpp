@@ -6,6 +6,7 @@
 
 #include "sfsm/report/embedded.h"
 #include "sfsm/report/markup.h"
+#include "sfsm/report/numbers.h"
 #include "sfsm/report/page_file.h"
 #include "sfsm/report/recording_html.h"
 #include "sfsm/report/report.h"
@@ -63,11 +64,6 @@ void write_scorecard(std::ostream& out, const Report& report) {
         out << "</tr>\n";
     }
     out << "</tbody></table>\n";
-}
-
-bool has_stutters(const Report& report) {
-    return std::any_of(report.recordings.begin(), report.recordings.end(),
-                       [](const ReportedRecording& recording) { return !recording.stutters.empty(); });
 }
 
 bool has_origins(const Report& report) {

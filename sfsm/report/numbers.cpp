@@ -160,6 +160,11 @@ std::string signed_text(const Difference& difference, double change) {
 
 }  // namespace
 
+bool has_stutters(const Report& report) {
+    return std::any_of(report.recordings.begin(), report.recordings.end(),
+                       [](const ReportedRecording& recording) { return !recording.stutters.empty(); });
+}
+
 std::string change_text(const Difference& difference, double change) {
     return std::isfinite(change) ? signed_text(difference, change) + unit_of(difference) : "\u2013";
 }

@@ -24,6 +24,9 @@ struct NumberGroup {
 // [ms]; NaN where recordings have different targets, or one that changes, or none.
 double common_target(std::span<const ReportedRecording> recordings);
 
+// Of any recording.
+bool has_stutters(const Report& report);
+
 // Rows that say nothing of any recording are left out, and so are groups without rows.
 std::vector<NumberGroup> numbers_of(std::span<const ReportedRecording> recordings);
 

@@ -7,6 +7,7 @@
 
 #include "sfsm/report/markup.h"
 #include "sfsm/report/numbers.h"
+#include "sfsm/report/series.h"
 
 namespace sfsm::report {
 namespace {
@@ -83,11 +84,6 @@ void write_notes(std::ostream& out, const ReportedRecording& recording) {
     out << "<ul class=\"notes\">\n";
     for (const std::string& note : recording.notes) out << "<li>" << escaped(note) << "</li>\n";
     out << "</ul>\n";
-}
-
-bool tells(const ReportedRecording& recording, double FrameRecord::*part) {
-    return std::any_of(recording.frames.begin(), recording.frames.end(),
-                       [&](const FrameRecord& frame) { return std::isfinite(frame.*part); });
 }
 
 std::string two_digits(std::int64_t value) {
@@ -193,8 +189,8 @@ void write_origins(std::ostream& out, const Report& report) {
 void write_busy_figures(std::ostream& out, const Report& report) {
     for (std::size_t i = 0; i < report.recordings.size(); ++i) {
         const ReportedRecording& recording = report.recordings[i];
-        const bool tells_gpu = tells(recording, &FrameRecord::gpu_ms),
-                   tells_cpu = tells(recording, &FrameRecord::cpu_ms);
+        const bool tells_gpu = is_told(series_of(recording.frames, &FrameRecord::gpu_ms)),
+                   tells_cpu = is_told(series_of(recording.frames, &FrameRecord::cpu_ms));
         if (!tells_gpu && !tells_cpu) continue;
         const Bottleneck& held = recording.figures.bottleneck;
         out << "<figure id=\"recorded-busy-" << i << "\"><figcaption><span>";

@@ -6,19 +6,13 @@
 
 #include "sfsm/report/markup.h"
 #include "sfsm/report/plot.h"
+#include "sfsm/report/series.h"
 
 namespace sfsm::report {
 namespace {
 
 constexpr int width = 220;  // [px]
 constexpr double height = 44;
-
-std::vector<float> series(const ReportRun& run, float ReportFrame::*field) {
-    std::vector<float> values;
-    values.reserve(run.frames.size());
-    for (const ReportFrame& frame : run.frames) values.push_back(frame.*field);
-    return values;
-}
 
 // Least and most of each column.
 std::string extent_path(const std::vector<float>& values, const Axis& x, const Axis& y) {
@@ -47,18 +41,19 @@ void write_picture(std::ostream& out, const Report& report, const ReportRun& run
     out << "<svg class=\"small\" viewBox=\"0 0 " << width << ' ' << pixels(height)
         << "\" role=\"img\" aria-label=\"Frame times of " << escaped(run.name) << "\">";
     if (&run != &report.runs.front()) {
-        write_path(out, "small-first", extent_path(series(report.runs.front(), &ReportFrame::frame_ms), x, y));
+        write_path(out, "small-first",
+                   extent_path(series_of(report.runs.front().frames, &ReportFrame::frame_ms), x, y));
     }
-    write_path(out, "small-run", extent_path(series(run, &ReportFrame::frame_ms), x, y));
-    write_path(out, "small-target", extent_path(series(run, &ReportFrame::target_ms), x, y));
+    write_path(out, "small-run", extent_path(series_of(run.frames, &ReportFrame::frame_ms), x, y));
+    write_path(out, "small-target", extent_path(series_of(run.frames, &ReportFrame::target_ms), x, y));
     out << "</svg>";
 }
 
 }  // namespace
 
 void write_small_multiples(std::ostream& out, const Report& report) {
-    const double top = fitted_top(series(report.runs.front(), &ReportFrame::frame_ms),
-                                  series(report.runs.front(), &ReportFrame::target_ms));
+    const double top = fitted_top(series_of(report.runs.front().frames, &ReportFrame::frame_ms),
+                                  series_of(report.runs.front().frames, &ReportFrame::target_ms));
     out << "<table class=\"multiples\"><thead><tr><th scope=\"col\">Run</th><th scope=\"col\">Frame time, 0 to "
         << figure(top, 1) << " <small>ms</small></th>";
     for (const Score& score : report.runs.front().scores) {

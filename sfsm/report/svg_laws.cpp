@@ -5,6 +5,7 @@
 
 #include "sfsm/report/markup.h"
 #include "sfsm/report/pictures.h"
+#include "sfsm/report/series.h"
 #include "sfsm/report/svg_parts.h"
 
 namespace sfsm::report {
@@ -18,18 +19,6 @@ constexpr const char* band = "#dde3ec";
 std::string fill_of(State state) {
     constexpr std::array<const char*, 3> fills = {state_colours[0], "url(#state-slowed)", state_colours[2]};
     return fills[static_cast<std::size_t>(state)];
-}
-
-// One field of a run's frames; D only where it means something.
-std::vector<float> series(const ReportRun& run, float ReportFrame::*field) {
-    constexpr float none = std::numeric_limits<float>::quiet_NaN();
-    std::vector<float> values;
-    values.reserve(run.frames.size());
-    for (const ReportFrame& frame : run.frames) {
-        const bool means_nothing = field == &ReportFrame::motion_distance && frame.state == State::original;
-        values.push_back(means_nothing ? none : frame.*field);
-    }
-    return values;
 }
 
 // What all charts over time share.
@@ -130,19 +119,19 @@ double draw_times(std::string& out, const Report& report, const TimeAxis& time, 
     out += chart_frame(
         std::string("Frame time [ms], target \u00B15 %") + (shows_predicted ? "; dashed: predicted" : ""), y, 6);
     const Begins begins = time.begins();
-    const std::vector<float> targets = series(report.runs[0], &ReportFrame::target_ms);
+    const std::vector<float> targets = series_of(report.runs[0].frames, &ReportFrame::target_ms);
     out += target_band(time, y, targets);
     const bool is_thinned = time.frames > 2 * chart_columns;  // curves are areas: they would hide the target
     const std::string target =
         stroke(curve(thin_over(time, targets), time.begins(), y, true), is_thinned ? ink : faint_ink);
     if (!is_thinned) out += target;
     for (std::size_t i = 0; i < report.runs.size(); ++i) {
-        const std::vector<float> times = series(report.runs[i], &ReportFrame::frame_ms);
+        const std::vector<float> times = series_of(report.runs[i].frames, &ReportFrame::frame_ms);
         const std::vector<Bucket> thinned = thin_over(time, times);
         out += stroke(curve(thinned, begins, y, false), colour_of(i), "stroke-width=\"1.25\" stroke-opacity=\"0.9\"");
         out += carets(thinned, begins, y, colour_of(i));
         if (!shows_predicted) continue;
-        const std::vector<float> predicted = series(report.runs[i], &ReportFrame::predicted_ms);
+        const std::vector<float> predicted = series_of(report.runs[i].frames, &ReportFrame::predicted_ms);
         out += stroke(curve(thin_over(time, predicted), begins, y, false), colour_of(i),
                       "stroke-dasharray=\"3 3\" stroke-opacity=\"0.7\"");
     }
@@ -162,7 +151,7 @@ double draw_detail(std::string& out, const Report& report, const TimeAxis& time,
     std::vector<std::vector<float>> all;
     double most = 0;
     for (const ReportRun& run : report.runs) {
-        all.push_back(series(run, field));
+        all.push_back(series_of(run.frames, field));
         for (const float value : all.back()) {
             if (std::isfinite(value)) most = std::max<double>(most, value);
         }
@@ -204,7 +193,7 @@ double draw_laws(std::string& out, const Report& report, double top) {
                     y + 44);
     out += text(chart_right, y + 18, filled(faint_ink) + " text-anchor=\"end\"", "frame");
     std::vector<std::vector<float>> times;
-    for (const ReportRun& run : report.runs) times.push_back(series(run, &ReportFrame::frame_ms));
+    for (const ReportRun& run : report.runs) times.push_back(series_of(run.frames, &ReportFrame::frame_ms));
     return draw_percentiles(out, names_of(report.runs), times, y + 48);
 }
 

@@ -5,6 +5,7 @@
 #include "sfsm/report/markup.h"
 #include "sfsm/report/numbers.h"
 #include "sfsm/report/pictures.h"
+#include "sfsm/report/series.h"
 #include "sfsm/report/svg_parts.h"
 
 namespace sfsm::report {
@@ -23,16 +24,8 @@ struct Course {
     }
 };
 
-template <class Value>
-std::vector<float> series(const ReportedRecording& recording, Value FrameRecord::*field) {
-    std::vector<float> values;
-    values.reserve(recording.frames.size());
-    for (const FrameRecord& frame : recording.frames) values.push_back(static_cast<float>(frame.*field));
-    return values;
-}
-
 Course course_of(const ReportedRecording& recording, const Axis& seconds) {
-    Course course{{seconds(0)}, series(recording, &FrameRecord::frame_ms)};
+    Course course{{seconds(0)}, series_of(recording.frames, &FrameRecord::frame_ms)};
     double now = 0;
     for (const FrameRecord& frame : recording.frames) {
         now += is_timed(frame) ? frame.frame_ms / 1000 : 0;
@@ -85,10 +78,7 @@ double draw_times(std::string& out, const Report& report, const std::vector<Cour
     const double target = common_target(report.recordings);
     if (std::isfinite(target)) targets.push_back(static_cast<float>(target));
     const Axis y{0, fitted_top(all, targets), top + 240, top};
-    const bool has_stutters =
-        std::any_of(report.recordings.begin(), report.recordings.end(),
-                    [](const ReportedRecording& recording) { return !recording.stutters.empty(); });
-    out += chart_frame(std::string("Frame time [ms]") + (has_stutters ? "; triangles: stutters" : ""), y, 6);
+    out += chart_frame(std::string("Frame time [ms]") + (has_stutters(report) ? "; triangles: stutters" : ""), y, 6);
     if (!targets.empty()) out += line(chart_left, y(target), chart_right, y(target), faint_ink);
     double bottom = y.begin;
     for (std::size_t i = 0; i < courses.size(); ++i) {
@@ -117,10 +107,6 @@ std::string area(const std::vector<float>& values, const Course& course, const A
     return path.empty() ? "" : "<path d=\"" + path + "\" fill=\"" + colour + "\" fill-opacity=\"0.75\"/>\n";
 }
 
-bool is_told(const std::vector<float>& values) {
-    return std::any_of(values.begin(), values.end(), [](float value) { return std::isfinite(value); });
-}
-
 double sum_of(const std::vector<float>& values) {
     double sum = 0;
     for (const float value : values) sum += std::isfinite(value) ? static_cast<double>(value) : 0;
@@ -130,8 +116,8 @@ double sum_of(const std::vector<float>& values) {
 // Of the first recording: of several, areas would cover each other.
 double draw_busy(std::string& out, const Report& report, const Course& course, const Axis& seconds, double top) {
     const ReportedRecording& recording = report.recordings.front();
-    const std::vector<float> gpu = series(recording, &FrameRecord::gpu_ms),
-                             cpu = series(recording, &FrameRecord::cpu_ms);
+    const std::vector<float> gpu = series_of(recording.frames, &FrameRecord::gpu_ms),
+                             cpu = series_of(recording.frames, &FrameRecord::cpu_ms);
     if (!is_told(gpu) && !is_told(cpu)) return top;
     const Axis y{0, fitted_top(course.times, {}), top + 134, top + 44};
     out += chart_frame("GPU (blue) and CPU (orange) busy [ms]" +
@@ -157,7 +143,7 @@ double draw_series(std::string& out, const Report& report, const std::vector<Cou
     std::vector<std::vector<float>> told;
     std::vector<float> all;
     for (const ReportedRecording& recording : report.recordings) {
-        told.push_back(series(recording, field));
+        told.push_back(series_of(recording.frames, field));
         all.insert(all.end(), told.back().begin(), told.back().end());
     }
     if (!is_told(all)) return top;
