@@ -82,6 +82,11 @@ void write_script(std::ostream& out) {
     }
 }
 
+// What the charts of recordings and of laws both have, under ids that begin so.
+void write_controls(std::ostream& out, const char* file, const char* prefix) {
+    fill_page(out, page_file(file), [&](std::string_view) { out << prefix; });
+}
+
 // What stands in the page for {{name}}.
 void write_part(std::ostream& out, const Report& report, std::string_view name) {
     if (name == "title") out << escaped(report.title);
@@ -100,6 +105,10 @@ void write_part(std::ostream& out, const Report& report, std::string_view name) 
     if (name == "origin-lists") write_origins(out, report);
     if (name == "runs-title") out << escaped(report.runs_title);
     if (name == "runs-words" && !report.runs_words.empty()) out << "<p>" << escaped(report.runs_words) << "</p>\n";
+    if (name == "tools") write_controls(out, "tools.html", "");
+    if (name == "recorded-tools") write_controls(out, "tools.html", "recorded-");
+    if (name == "keys") write_controls(out, "keys.html", "");
+    if (name == "recorded-keys") write_controls(out, "keys.html", "recorded-");
     if (name == "facts") write_run_facts(out, report);
     if (name == "scorecard") write_scorecard(out, report);
     if (name == "small-multiples") write_small_multiples(out, report);
